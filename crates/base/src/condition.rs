@@ -1,0 +1,152 @@
+//! Every condition under which a control refuses a block, under one stable name each.
+//!
+//! A condition says what is wrong, finer than a control's alarm does: many conditions share one alarm.
+//! Which alarm a control shows for a condition is data (`controls/NAME/alarms.toml`); the three sentences
+//! shown to people are data too (`controls/conditions.toml`). Adding a condition is one line here and one
+//! row there; a test holds the two together.
+
+macro_rules! conditions {
+    ($($(#[$doc:meta])* $name:ident = $id:literal,)*) => {
+        /// What is wrong with a block, independent of the control that found it.
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+        pub enum Condition { $($(#[$doc])* $name,)* }
+
+        impl Condition {
+            /// Every condition, in the order of its declaration.
+            pub const ALL: &'static [Condition] = &[$(Condition::$name,)*];
+
+            /// The stable name, as `controls/` spells it.
+            pub const fn id(self) -> &'static str {
+                match self { $(Condition::$name => $id,)* }
+            }
+
+            /// The condition of this name, if there is one.
+            pub fn from_id(id: &str) -> Option<Condition> {
+                match id { $($id => Some(Condition::$name),)* _ => None }
+            }
+        }
+    };
+}
+
+conditions! {
+    // What cannot be read at all (syntax).
+    /// An address letter is followed by no number.
+    NumberMissing = "number-missing",
+    /// A number stands without an address letter before it.
+    AddressMissing = "address-missing",
+    /// A sign or a second decimal point stands where none may.
+    SignOrPoint = "sign-or-point",
+    /// More digits than any number of a program can have (18).
+    NumberTooLong = "number-too-long",
+    /// A character that no program word contains.
+    CharacterUnknown = "character-unknown",
+    /// A small letter on a control whose tapes have one case only.
+    LowerCase = "lower-case",
+    /// A comment is opened but not closed in its block.
+    CommentOpen = "comment-open",
+    /// A comment is closed that was never opened.
+    CommentClose = "comment-close",
+    /// The block is longer than the control reads. Values: characters allowed.
+    BlockTooLong = "block-too-long",
+    /// A macro statement that cannot be read.
+    MacroStatement = "macro-statement",
+
+    // Words that the control does not have, or not so.
+    /// The address letter means nothing on this control or this machine.
+    AddressUnavailable = "address-unavailable",
+    /// A decimal point in a word that takes none.
+    PointNotAllowed = "point-not-allowed",
+    /// The value lies outside the address's range. Values: written, lowest, highest.
+    ValueOutOfRange = "value-out-of-range",
+    /// More digits than the address takes. Values: digits written, digits allowed.
+    DigitsTooMany = "digits-too-many",
+    /// A code is too large for the lines that carry it to the machine. Values: code, digits on the lines.
+    CodeTooLargeForLines = "code-too-large-for-lines",
+    /// The same address twice on a control that refuses it.
+    WordRepeated = "word-repeated",
+
+    // Codes.
+    /// The control has no such G code. Values: code.
+    GUnknown = "g-unknown",
+    /// The G code belongs to an option that is not fitted. Values: code.
+    GNotFitted = "g-not-fitted",
+    /// The control has no such M code. Values: code.
+    MUnknown = "m-unknown",
+    /// More than one M code in a block without the option for it.
+    MSeveral = "m-several",
+    /// Two one-shot G codes in one block.
+    OneShotTwice = "one-shot-twice",
+    /// A one-shot G code beside (or under) a movement code it may not accompany.
+    OneShotWithMotion = "one-shot-with-motion",
+    /// A one-shot G code beside any other G code, read by the letter of the manual.
+    OneShotCompany = "one-shot-company",
+    /// Tool length compensation switched together with, or under, an arc.
+    LengthOffsetWithArc = "length-offset-with-arc",
+    /// G45 to G48 where no movement that can be lengthened is in force.
+    PositionOffsetWithoutMotion = "position-offset-without-motion",
+    /// G45 to G48 while a canned cycle is active.
+    PositionOffsetInCycle = "position-offset-in-cycle",
+    /// G45 to G48 while tool radius compensation is active.
+    PositionOffsetInCompensation = "position-offset-in-compensation",
+    /// G45 to G48 on an arc given by its radius.
+    PositionOffsetArcRadius = "position-offset-arc-radius",
+    /// A movement code and a canned cycle in one block.
+    CycleWithMotion = "cycle-with-motion",
+    /// The code is known and correct, but this program does not execute it yet.
+    NotYetBuilt = "not-yet-built",
+
+    // Feed, arcs, offsets.
+    /// A cutting move and no feed.
+    FeedMissing = "feed-missing",
+    /// Feed per revolution and spindle speed zero: the axes would wait for ever.
+    SpindleSpeedMissing = "spindle-speed-missing",
+    /// An arc with neither centre nor radius.
+    ArcWithoutCentre = "arc-without-centre",
+    /// An arc that starts on its own centre.
+    ArcRadiusZero = "arc-radius-zero",
+    /// The radius cannot span start and end. Values: radius mm, distance mm.
+    ArcRadiusTooSmall = "arc-radius-too-small",
+    /// The end is further off the circle than the control allows. Values: off by mm, limit mm.
+    ArcEndOff = "arc-end-off",
+    /// No such offset number. Values: number, highest number.
+    OffsetNumber = "offset-number",
+    /// A canned cycle lacks its R or Z level.
+    CycleLevelMissing = "cycle-level-missing",
+    /// A pecking cycle lacks its depth of cut Q.
+    CyclePeckMissing = "cycle-peck-missing",
+    /// A hole pattern has no holes (L 0 or missing).
+    PatternCount = "pattern-count",
+    /// A bolt circle's radius I is zero, negative or missing.
+    PatternRadius = "pattern-radius",
+
+    // Programs that call one another.
+    /// A call or a return names no program or block where it must.
+    CallTargetMissing = "call-target-missing",
+    /// The called program is nowhere to be found. Values: program number.
+    ProgramNotFound = "program-not-found",
+    /// The sequence number to go to does not stand in the program. Values: number.
+    SequenceNotFound = "sequence-not-found",
+    /// Subprograms call one another too deep. Values: levels allowed.
+    NestingTooDeep = "nesting-too-deep",
+    /// A loop runs on without motion, dwell or stop. Values: jumps or statements counted.
+    EndlessLoop = "endless-loop",
+
+    // The machine.
+    /// The move leaves the axis' travel. Values: where it would go, lower limit, upper limit.
+    TravelExceeded = "travel-exceeded",
+    /// A code that the machine's wiring or builder's logic does not know. Values: code.
+    MachineCodeUnknown = "machine-code-unknown",
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_id_leads_back_to_its_condition() {
+        for &condition in Condition::ALL {
+            assert_eq!(Condition::from_id(condition.id()), Some(condition));
+        }
+        assert_eq!(Condition::from_id("no such thing"), None);
+    }
+}

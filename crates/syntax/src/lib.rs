@@ -1,0 +1,17 @@
+//! Characters to blocks: words with their places, comments, block delete, macro statements recognised.
+//!
+//! Comes in: a window of a program's characters and a [`Cursor`]. Goes out: one [`Block`] at a time, reused from
+//! call to call. Never fails: what is wrong becomes a [`Fault`] at its place. Must never know: what any code
+//! means, or which control reads it; the few things in which controls' texts differ are in [`Grammar`].
+
+mod block;
+mod grammar;
+mod lexer;
+mod number;
+mod print;
+mod statement;
+
+pub use block::{Block, Cursor, Extent, Fault, Skip, Statement, StatementKind, Value, Word};
+pub use grammar::{Colon, Grammar, LowerCase, Semicolon};
+pub use lexer::{Outcome, read_block};
+pub use print::print_block;
