@@ -15,18 +15,27 @@ pub struct Alarm {
     pub values: [f64; 3],
     /// The axis it is about, as an index of the machine's axes.
     pub axis: Option<u8>,
+    /// The address letter it is about, 0 for none: some addresses have an alarm of their own.
+    pub letter: u8,
 }
 
 impl Alarm {
     /// An alarm about one span of a block, without numbers.
     pub const fn new(condition: Condition, place: Place, span: Span) -> Alarm {
-        Alarm { condition, place, span, values: [0.0; 3], axis: None }
+        Alarm { condition, place, span, values: [0.0; 3], axis: None, letter: 0 }
     }
 
     /// The same with its numbers.
     #[must_use]
     pub const fn with(mut self, values: [f64; 3]) -> Alarm {
         self.values = values;
+        self
+    }
+
+    /// The same about one address.
+    #[must_use]
+    pub const fn about(mut self, letter: u8) -> Alarm {
+        self.letter = letter;
         self
     }
 

@@ -1,1 +1,98 @@
-//! (to come)
+//! Controls as typed tables: what a code means here, which group it belongs to, what may stand beside it.
+//!
+//! Comes in: the TOML files of `controls/`. Goes out: a [`Control`], validated, and the [`Fitting`] of one machine
+//! (options, policies, parameters). Must never know: where a program stands, what it has done. This is the only
+//! crate in which controls differ; every other stage asks it and gets an answer that is already decided.
+
+mod address;
+mod alarm;
+mod builtin;
+mod combination;
+mod control;
+mod fitting;
+mod load;
+mod meaning;
+mod policy;
+mod row;
+mod word;
+
+pub use address::{Address, AddressKind, PointRule};
+pub use alarm::AlarmRow;
+pub use builtin::{builtin_controls, builtin_files};
+pub use combination::{Written, check_combination};
+pub use control::{Control, GroupCodes, Group, GroupRule, Grouping, MOST_GROUPS, NO_CODE, Roles, Tolerances};
+pub use fitting::{Fitting, FittingError, ParameterSetting};
+pub use load::{ControlFiles, load_control};
+pub use meaning::{MMeaning, Meaning};
+pub use policy::Policies;
+pub use row::{Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn yasnac() -> Control {
+        let files = builtin_files("yasnac-mx1").expect("it is built in");
+        match load_control(&files) {
+            Ok(control) => control,
+            Err(errors) => panic!("{}", errors.iter().map(|e| format!("{e}\n\n")).collect::<String>()),
+        }
+    }
+
+    #[test]
+    fn every_builtin_control_loads() {
+        for name in builtin_controls() {
+            let files = builtin_files(name).expect("it is built in");
+            assert!(load_control(&files).is_ok_and(|control| control.name == name), "{name}");
+        }
+    }
+
+    #[test]
+    fn policies_that_code_reads_are_in_the_tables_with_the_same_values_and_default() {
+        let control = yasnac();
+        for (name, values) in policy::KNOWN {
+            let row = control.policies.iter().find(|row| row.name == *name).unwrap_or_else(|| panic!("{name}"));
+            let mut listed: Vec<_> = row.values.iter().map(String::as_str).collect();
+            let mut known = values.to_vec();
+            assert_eq!(row.values[row.default], known[0], "default of {name}");
+            listed.sort_unstable();
+            known.sort_unstable();
+            assert_eq!(listed, known, "{name}");
+        }
+    }
+
+    #[test]
+    fn options_that_code_asks_for_are_in_the_tables() {
+        let control = yasnac();
+        for name in policy::ASKED {
+            assert!(control.options.iter().any(|row| row.name == *name), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_wrong_row_is_reported_at_its_place() {
+        let mut files = builtin_files("yasnac-mx1").expect("it is built in");
+        for (name, text) in &mut files.tables {
+            if name == "g_codes.toml" {
+                *text = text.replacen("meaning = \"linear\"", "meaning = \"liniar\"", 1);
+            }
+        }
+        let errors = load_control(&files).expect_err("no such meaning");
+        assert!(errors[0].file.ends_with("g_codes.toml") && errors[0].source.contains("liniar"), "{}", errors[0]);
+    }
+
+    #[test]
+    fn parameters_decide_the_state_at_power_on() {
+        let control = yasnac();
+        let mut fitting = Fitting::stock(&control);
+        let motion = |fitting: &Fitting| fitting.power_on(&control).0[control.roles.motion];
+        assert_eq!(control.g_name(motion(&fitting)), "G00");
+        let setting = |value: &str, bit| ParameterSetting { name: "6005".into(), bit, value: value.into() };
+        fitting.set_parameter(&control, &setting("0b100", None)).expect("it has this bit");
+        assert_eq!(control.g_name(motion(&fitting)), "G01");
+        fitting.set_parameter(&control, &setting("0", Some(2))).expect("it has this bit");
+        assert_eq!(control.g_name(motion(&fitting)), "G00");
+        assert!(fitting.set_parameter(&control, &setting("256", None)).is_err());
+        assert!(fitting.set_parameter(&control, &setting("2", Some(2))).is_err());
+    }
+}

@@ -1,0 +1,66 @@
+//! Address letters: what may follow each.
+
+use crate::row::Origin;
+
+/// What an address letter carries.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum AddressKind {
+    /// A position of a linear axis.
+    LinearAxis,
+    /// A position of a rotary axis.
+    RotaryAxis,
+    /// A length beside the axes (I J K R Q); some functions read it as an angle.
+    Length,
+    /// A code of so many digits (G M B).
+    Code,
+    /// A whole number (N O H D L S T).
+    Number,
+    /// A feed.
+    Feed,
+    /// A time in a dwell, a whole number elsewhere.
+    TimeOrNumber,
+    /// An argument of a macro call, nothing elsewhere.
+    MacroOnly,
+}
+
+/// Where a decimal point may stand.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum PointRule {
+    /// Anywhere.
+    Yes,
+    /// Nowhere.
+    No,
+    /// In a dwell only.
+    Dwell,
+}
+
+/// One address letter.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Address {
+    /// The letter.
+    pub letter: u8,
+    /// What it carries.
+    pub kind: AddressKind,
+    /// Most digits that may be written, for codes.
+    pub digits: u8,
+    /// Lowest and highest value in mm, for lengths in metric input.
+    pub metric: [f64; 2],
+    /// Lowest and highest value in inches, for lengths in inch input.
+    pub inch: [f64; 2],
+    /// Lowest and highest value in degrees.
+    pub rotary: [f64; 2],
+    /// Lowest and highest whole number.
+    pub range: [i64; 2],
+    /// Feed ranges: metric per minute, inch per minute, metric per revolution, inch per revolution.
+    pub feed: [[f64; 2]; 4],
+    /// Lowest and highest time in seconds.
+    pub seconds: [f64; 2],
+    /// Where a point may stand.
+    pub point: PointRule,
+    /// Name of the alarm when the value is out of range.
+    pub alarm: String,
+    /// What it is, for people.
+    pub text: String,
+    /// What the row rests on.
+    pub origin: Origin,
+}

@@ -1,0 +1,97 @@
+//! Alarms: which one a condition raises on this control, and the three sentences for people.
+
+use base::{Alarm, AlarmName, Condition, Diagnostic, Severity};
+
+use crate::control::Control;
+use crate::row::Origin;
+
+/// An alarm of the control.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct AlarmRow {
+    /// Its reference name.
+    pub name: String,
+    /// The number the control shows, where it is known.
+    pub number: Option<u32>,
+    /// The control's short text.
+    pub text: String,
+    /// What the row rests on.
+    pub origin: Origin,
+}
+
+/// What is wrong, why the machine cares, what to do: with places for the word and the numbers.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub(crate) struct Sentences {
+    pub what: String,
+    pub why: String,
+    pub help: String,
+}
+
+impl Control {
+    /// The alarm that this control raises.
+    pub fn alarm_name(&self, alarm: &Alarm) -> AlarmName {
+        let own = self.address(alarm.letter).map(|address| address.alarm.as_str());
+        let by_address = match alarm.condition {
+            Condition::ValueOutOfRange | Condition::DigitsTooMany | Condition::CodeTooLargeForLines => own,
+            _ => None,
+        };
+        let row = by_address.and_then(|name| self.alarms.iter().find(|row| row.name == name)).or_else(|| {
+            let index = *self.alarm_of_condition.get(alarm.condition as usize)?;
+            self.alarms.get(index)
+        });
+        match row {
+            Some(row) => AlarmName { name: row.name.clone(), number: row.number, text: row.text.clone() },
+            None => AlarmName { name: alarm.condition.id().to_uppercase(), number: None, text: String::new() },
+        }
+    }
+
+    /// The alarm for people. `word` is the offending text as written, `axis` the letter and whether it turns.
+    pub fn diagnose(&self, alarm: &Alarm, word: &str, axis: Option<(char, bool)>) -> Diagnostic {
+        let fallback = Sentences::default();
+        let sentences = self.sentences.get(alarm.condition as usize).unwrap_or(&fallback);
+        let fill = |text: &str| fill(text, alarm, word, axis);
+        Diagnostic {
+            code: alarm.condition.id(),
+            severity: Severity::Error,
+            message: fill(&sentences.what),
+            why: fill(&sentences.why),
+            help: fill(&sentences.help),
+            alarm: Some(self.alarm_name(alarm)),
+            place: alarm.place,
+            span: alarm.span,
+        }
+    }
+}
+
+/// Puts the word and the numbers into a sentence.
+fn fill(text: &str, alarm: &Alarm, word: &str, axis: Option<(char, bool)>) -> String {
+    let mut out = String::with_capacity(text.len() + 16);
+    let mut rest = text;
+    while let Some(open) = rest.find('{') {
+        out.push_str(&rest[..open]);
+        let Some(close) = rest[open..].find('}') else { break };
+        let name = &rest[open + 1..open + close];
+        rest = &rest[open + close + 1..];
+        let value = |digit: &str| digit.parse::<usize>().ok().and_then(|n| alarm.values.get(n.wrapping_sub(1)).copied());
+        match name.split_once(':') {
+            Some((digit, "mm")) => {
+                let unit = if axis.is_some_and(|(_, turns)| turns) { "deg" } else { "mm" };
+                out.push_str(&format!("{} {unit}", plain(value(digit).unwrap_or(0.0))));
+            }
+            _ => match name {
+                "word" => out.push_str(word),
+                "axis" => out.push(axis.map_or('?', |(letter, _)| letter)),
+                "g" => out.push_str(&format!("G{:02}", alarm.values[0])),
+                digit => out.push_str(&plain(value(digit).unwrap_or(0.0))),
+            },
+        }
+    }
+    out.push_str(rest);
+    out
+}
+
+/// A number for people: at most three decimals, no trailing zeros.
+fn plain(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}

@@ -1,0 +1,93 @@
+//! Which G codes may stand together in one block.
+//!
+//! The rules that no table row can say: R28, R31, R32 of the YASNAC MX1 (operator's manual TOE-C843-7.30, 2.9.1), as
+//! the policy `one-shot-company` reads them.
+
+use base::Condition;
+
+use crate::control::Control;
+use crate::fitting::Fitting;
+use crate::meaning::Meaning;
+use crate::policy::{CycleWithMotion, OneShotCompany};
+
+/// The G codes of a block as written: rows of the control's table.
+#[derive(Clone, Copy, Debug)]
+pub struct Written<'a> {
+    /// Rows in their order.
+    pub rows: &'a [u8],
+    /// The movement in force after the block's own codes.
+    pub motion: Option<Meaning>,
+}
+
+/// Checks a block's G codes against one another.
+///
+/// # Errors
+/// The condition and the index (in the order of writing) of the code that is refused.
+pub fn check_combination(control: &Control, fitting: &Fitting, written: Written) -> Result<(), (Condition, usize)> {
+    if written.rows.len() < 2 && written.motion.is_some_and(|motion| !motion.is_arc()) {
+        return Ok(());
+    }
+    let meaning = |index: usize| control.g_codes.get(usize::from(written.rows[index])).map(|row| row.meaning);
+    let is_one_shot = |index: usize| control.g_codes.get(usize::from(written.rows[index])).is_some_and(|row| row.is_one_shot());
+    let mut one_shot = None;
+    let mut motion_code = None;
+    let mut cycle_code = None;
+    for index in 0..written.rows.len() {
+        let Some(code) = meaning(index) else { continue };
+        if is_one_shot(index) {
+            if one_shot.is_some() {
+                return Err((Condition::OneShotTwice, index));
+            }
+            one_shot = Some(index);
+        } else if code.is_motion() {
+            motion_code = Some(index);
+        } else if code.is_cycle() {
+            cycle_code = Some(index);
+        }
+        if code.length_offset().is_some() && written.motion.is_some_and(Meaning::is_arc) {
+            return Err((Condition::LengthOffsetWithArc, index));
+        }
+    }
+    if let (Some(motion), Some(cycle)) = (motion_code, cycle_code)
+        && fitting.policies.cycle_with_motion == CycleWithMotion::Refuse
+    {
+        return Err((Condition::CycleWithMotion, motion.max(cycle)));
+    }
+    match one_shot {
+        Some(index) => check_company(fitting, index, meaning(index), motion_code, meaning, written.rows.len()),
+        None => Ok(()),
+    }
+}
+
+/// Checks what stands beside the block's one one-shot code.
+fn check_company(
+    fitting: &Fitting,
+    index: usize,
+    code: Option<Meaning>,
+    motion_code: Option<usize>,
+    meaning: impl Fn(usize) -> Option<Meaning>,
+    count: usize,
+) -> Result<(), (Condition, usize)> {
+    let company = fitting.policies.one_shot_company;
+    if company == OneShotCompany::Lenient {
+        return Ok(());
+    }
+    let Some(code) = code else { return Ok(()) };
+    let goes_with = |motion: Meaning| match code {
+        Meaning::ExactStop => true,
+        Meaning::MachineCoordinates => matches!(motion, Meaning::Rapid | Meaning::Linear),
+        _ => code.position_offset().is_some(),
+    };
+    if let Some(motion) = motion_code.and_then(&meaning)
+        && !goes_with(motion)
+    {
+        return Err((Condition::OneShotWithMotion, index));
+    }
+    if company == OneShotCompany::Literal {
+        let other = (0..count).find(|&other| other != index && !meaning(other).is_some_and(Meaning::is_motion));
+        if other.is_some() {
+            return Err((Condition::OneShotCompany, index));
+        }
+    }
+    Ok(())
+}

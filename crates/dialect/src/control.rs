@@ -1,0 +1,201 @@
+//! A control as one value: everything its tables say, with the look-ups that the stages need.
+
+use syntax::Grammar;
+
+use crate::address::Address;
+use crate::alarm::{AlarmRow, Sentences};
+use crate::meaning::{MMeaning, Meaning};
+use crate::row::{GCode, MCode, OptionRow, Origin, ParameterRow, PolicyRow};
+
+/// The most modal groups a control can have.
+pub const MOST_GROUPS: usize = 24;
+/// No row: a group that has no code in force.
+pub const NO_CODE: u8 = u8::MAX;
+
+/// The code in force in every group, as indices of the control's G rows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct GroupCodes(pub [u8; MOST_GROUPS]);
+
+/// How a group comes to its state at power-on or reset.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct GroupRule {
+    /// The row when no parameter decides; `None` keeps the state (at power-on: no code).
+    pub row: Option<u8>,
+    /// The parameter that decides: its index, its bits (least significant first), a row or "keep" for each value.
+    pub parameter: Option<(usize, Vec<u8>, Vec<Option<u8>>)>,
+}
+
+/// A modal group.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Group {
+    /// As the control numbers it.
+    pub number: u8,
+    /// What it decides.
+    pub name: String,
+    /// Its state at power-on.
+    pub power_on: GroupRule,
+    /// Its state after a reset.
+    pub reset: GroupRule,
+    /// What the row rests on.
+    pub origin: Origin,
+}
+
+/// How a text divides into programs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Grouping {
+    /// Each O word begins a program; one text may hold several.
+    OWords,
+    /// A file is a program.
+    Files,
+}
+
+/// Which group decides what: indices of the groups, found by what their codes mean.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Roles {
+    /// Positioning, lines and arcs.
+    pub motion: usize,
+    /// The plane of arcs and compensation.
+    pub plane: usize,
+    /// Absolute or incremental.
+    pub distance: usize,
+    /// Feed per minute or per revolution.
+    pub feed_mode: usize,
+    /// Inch or metric.
+    pub units: usize,
+    /// Tool radius compensation.
+    pub compensation: usize,
+    /// Tool length compensation.
+    pub length: usize,
+    /// Canned cycles.
+    pub cycle: usize,
+    /// The level to which cycles return.
+    pub return_level: usize,
+    /// The work coordinate system.
+    pub work: usize,
+    /// Exact stop or cutting mode.
+    pub stop_mode: usize,
+}
+
+/// Tolerances and clearances that are parameters on this control: indices of the parameter rows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Tolerances {
+    /// Clearance of pecking cycles.
+    pub cycle_clearance: usize,
+    /// By how much a radius may be too short to span its arc.
+    pub arc_radius: usize,
+    /// By how much an arc's end may be off its circle; 0 = no limit.
+    pub arc_end: usize,
+}
+
+/// A control, validated.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Control {
+    /// The name by which users choose it.
+    pub name: String,
+    /// Its full name.
+    pub title: String,
+    /// Who made it.
+    pub maker: String,
+    /// What it is, in one sentence.
+    pub summary: String,
+    /// The machine taken when none is named.
+    pub stock_machine: String,
+    /// How its texts are read.
+    pub grammar: Grammar,
+    /// How a text divides into programs.
+    pub grouping: Grouping,
+    /// True if the last of several words of one address counts; false if that is refused.
+    pub last_word_wins: bool,
+    /// Least input increments: nanometres (metric), nanometres (inch), microdegrees.
+    pub increments: [i64; 3],
+    /// Blocks read ahead of the executing one: ordinarily, in compensation, in buffering mode.
+    pub read_ahead: [usize; 3],
+    /// Levels of subprograms.
+    pub subprogram_levels: usize,
+    /// Levels of macro calls.
+    pub macro_levels: usize,
+    /// Highest offset number.
+    pub highest_offset: u32,
+    /// Largest offset value in mm.
+    pub offset_limit_mm: f64,
+    /// True if H and D share one memory.
+    pub common_offsets: bool,
+    /// M codes that cycles send: spindle forward, reverse, stop, orient.
+    pub cycle_codes: [u32; 4],
+    /// Row of the base work system, if the control has one.
+    pub base_system: Option<u8>,
+    /// M codes the machine builder decides, those of the control, those above two digits.
+    pub m_ranges: [[u32; 2]; 3],
+    /// The modal groups.
+    pub groups: Vec<Group>,
+    /// Which group decides what.
+    pub roles: Roles,
+    /// Which parameters hold which tolerance.
+    pub tolerances: Tolerances,
+    /// The G codes.
+    pub g_codes: Vec<GCode>,
+    /// The M codes that the control knows.
+    pub m_codes: Vec<MCode>,
+    /// The address letters, A to Z.
+    pub addresses: [Option<Address>; 26],
+    /// The options.
+    pub options: Vec<OptionRow>,
+    /// The policies.
+    pub policies: Vec<PolicyRow>,
+    /// The parameters.
+    pub parameters: Vec<ParameterRow>,
+    /// The alarms.
+    pub alarms: Vec<AlarmRow>,
+    /// The sentences for each condition, in the order of `Condition::ALL`.
+    pub(crate) sentences: Vec<Sentences>,
+    /// Which alarm each condition raises, in the order of `Condition::ALL`.
+    pub(crate) alarm_of_condition: Vec<usize>,
+    /// Row of each G code by its number.
+    pub(crate) g_index: Vec<u8>,
+    /// Row of each M code by its number.
+    pub(crate) m_index: Vec<u8>,
+}
+
+impl Control {
+    /// The row of a G code.
+    pub fn g_row(&self, code: i64) -> Option<u8> {
+        let row = *self.g_index.get(usize::try_from(code).ok()?)?;
+        (row != NO_CODE).then_some(row)
+    }
+
+    /// The M code of this number, if the control itself knows it.
+    pub fn m_code(&self, code: u32) -> Option<&MCode> {
+        let row = *self.m_index.get(code as usize)?;
+        self.m_codes.get(usize::from(row))
+    }
+
+    /// What the code in force in a group means.
+    pub fn in_force(&self, codes: &GroupCodes, group: usize) -> Option<Meaning> {
+        self.g_codes.get(usize::from(codes.0[group])).map(|row| row.meaning)
+    }
+
+    /// The row of the first code with this meaning.
+    pub fn row_of(&self, meaning: Meaning) -> Option<u8> {
+        self.g_codes.iter().position(|row| row.meaning == meaning).map(|row| row as u8)
+    }
+
+    /// The M code with this meaning.
+    pub fn m_of(&self, meaning: MMeaning) -> Option<&MCode> {
+        self.m_codes.iter().find(|row| row.meaning == meaning)
+    }
+
+    /// The address letter, if the control has it.
+    pub fn address(&self, letter: u8) -> Option<&Address> {
+        self.addresses.get(usize::from(letter.wrapping_sub(b'A')))?.as_ref()
+    }
+
+    /// A G row's name as programs write it: `G01`.
+    pub fn g_name(&self, row: u8) -> String {
+        self.g_codes.get(usize::from(row)).map_or_else(|| "-".to_owned(), |code| format!("G{:02}", code.code))
+    }
+
+    /// The groups that this control's own codes use, each with its index.
+    pub fn shown_groups(&self) -> impl Iterator<Item = (usize, &Group)> {
+        self.groups.iter().enumerate()
+    }
+}

@@ -1,0 +1,221 @@
+//! One machine's fitting of a control: which options it has, how the policies are set, its parameters.
+
+use std::fmt;
+
+use crate::control::{Control, GroupCodes, GroupRule, MOST_GROUPS, NO_CODE};
+use crate::policy::{Options, Policies};
+use crate::row::{Division, ParameterKind};
+
+/// A parameter as a user sets it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ParameterSetting {
+    /// Its number or name.
+    pub name: String,
+    /// One bit alone, if only that is set.
+    pub bit: Option<u8>,
+    /// The value as written: a number, `0b…`, or eight digits D7 to D0.
+    pub value: String,
+}
+
+/// A fitting that the control refuses.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct FittingError(pub String);
+
+impl fmt::Display for FittingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for FittingError {}
+
+/// Options, policies and parameters as they stand on one machine.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Fitting {
+    fitted: Vec<bool>,
+    /// The options that code asks for.
+    pub options: Options,
+    /// The policies that code reads.
+    pub policies: Policies,
+    parameters: Vec<f64>,
+}
+
+fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> FittingError {
+    let known: Vec<_> = known.collect();
+    FittingError(format!("there is no {what} `{name}` on this control; it has: {}", known.join(", ")))
+}
+
+impl Fitting {
+    /// The control as it comes: every default.
+    pub fn stock(control: &Control) -> Fitting {
+        let mut fitting = Fitting {
+            fitted: control.options.iter().map(|row| row.default).collect(),
+            options: Options::default(),
+            policies: Policies::default(),
+            parameters: control.parameters.iter().map(|row| row.default).collect(),
+        };
+        for row in &control.options {
+            fitting.options.set(&row.name, row.default);
+        }
+        for row in &control.policies {
+            fitting.policies.set(&row.name, row.values.get(row.default).map_or("", String::as_str));
+        }
+        fitting
+    }
+
+    /// Fits or removes an option.
+    ///
+    /// # Errors
+    /// The control has no such option, or one that is fitted excludes it.
+    pub fn set_option(&mut self, control: &Control, name: &str, fitted: bool) -> Result<(), FittingError> {
+        let Some(index) = control.options.iter().position(|row| row.name == name) else {
+            return Err(unknown("option", name, control.options.iter().map(|row| row.name.as_str())));
+        };
+        self.fitted[index] = fitted;
+        self.options.set(name, fitted);
+        Ok(())
+    }
+
+    /// Refuses options that cannot be fitted together; to be called when all are set.
+    ///
+    /// # Errors
+    /// Two fitted options exclude each other.
+    pub fn check_options(&self, control: &Control) -> Result<(), FittingError> {
+        for (index, row) in control.options.iter().enumerate() {
+            if !self.fitted[index] {
+                continue;
+            }
+            for other in &row.excludes {
+                if self.has_option(control, other) {
+                    let source = &row.origin.source;
+                    return Err(FittingError(format!(
+                        "the options `{}` and `{other}` exclude each other on the {} ({source}); turn one of them off",
+                        row.name, control.title
+                    )));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// True if the option is fitted.
+    pub fn has_option(&self, control: &Control, name: &str) -> bool {
+        control.options.iter().zip(&self.fitted).any(|(row, &fitted)| fitted && row.name == name)
+    }
+
+    /// True if a control of this fitting has a code of this division.
+    pub fn has(&self, division: Division) -> bool {
+        match division {
+            Division::Basic => true,
+            Division::Option(index) => self.fitted.get(usize::from(index)).copied().unwrap_or(false),
+            Division::Sibling => false,
+        }
+    }
+
+    /// Sets a policy.
+    ///
+    /// # Errors
+    /// The control has no such policy, or the policy no such value.
+    pub fn set_policy(&mut self, control: &Control, name: &str, value: &str) -> Result<(), FittingError> {
+        let Some(row) = control.policies.iter().find(|row| row.name == name) else {
+            return Err(unknown("policy", name, control.policies.iter().map(|row| row.name.as_str())));
+        };
+        if !row.values.iter().any(|known| known == value) {
+            return Err(FittingError(format!("policy `{name}` is one of {}, not `{value}`", row.values.join(", "))));
+        }
+        self.policies.set(name, value);
+        Ok(())
+    }
+
+    /// Writes a parameter or one bit of it.
+    ///
+    /// # Errors
+    /// The control has no such parameter, or the value does not fit it.
+    pub fn set_parameter(&mut self, control: &Control, setting: &ParameterSetting) -> Result<(), FittingError> {
+        let name = &setting.name;
+        let Some(index) = control.parameters.iter().position(|row| row.name.eq_ignore_ascii_case(name)) else {
+            return Err(unknown("parameter", name, control.parameters.iter().map(|row| row.name.as_str())));
+        };
+        let row = &control.parameters[index];
+        let wrong = |why: &str| FittingError(format!("parameter {name} = {}: {why}", setting.value));
+        let value = parse_value(&setting.value, row.kind).ok_or_else(|| wrong("this is no value of it"))?;
+        if let Some(bit) = setting.bit {
+            if row.kind != ParameterKind::Bits || bit > 7 {
+                return Err(wrong("it has no such bit"));
+            }
+            if value != 0.0 && value != 1.0 {
+                return Err(wrong("a bit is 0 or 1"));
+            }
+            let others = self.bits(index) & !(1 << bit);
+            self.parameters[index] = f64::from(others | (u8::from(value == 1.0) << bit));
+            return Ok(());
+        }
+        if let Some([low, high]) = row.range
+            && (value < low || value > high)
+        {
+            return Err(wrong(&format!("its range is {low} to {high}")));
+        }
+        if row.kind == ParameterKind::Bits && !(0.0..=255.0).contains(&value) {
+            return Err(wrong("it has eight bits"));
+        }
+        self.parameters[index] = value;
+        Ok(())
+    }
+
+    /// The value of the parameter with this index.
+    pub fn parameter(&self, index: usize) -> f64 {
+        self.parameters.get(index).copied().unwrap_or(0.0)
+    }
+
+    /// The value of a parameter by its number or name.
+    pub fn parameter_by_name(&self, control: &Control, name: &str) -> Option<f64> {
+        let index = control.parameters.iter().position(|row| row.name.eq_ignore_ascii_case(name))?;
+        self.parameters.get(index).copied()
+    }
+
+    fn bits(&self, index: usize) -> u8 {
+        self.parameter(index) as u8
+    }
+
+    fn decide(&self, rule: &GroupRule) -> Option<u8> {
+        let Some((index, bits, rows)) = &rule.parameter else { return rule.row };
+        let value = self.bits(*index);
+        let choice = bits.iter().enumerate().fold(0, |choice, (place, bit)| choice | usize::from(value >> bit & 1) << place);
+        rows.get(choice).copied().unwrap_or(rule.row)
+    }
+
+    /// Every group's state at power-on.
+    pub fn power_on(&self, control: &Control) -> GroupCodes {
+        let mut codes = GroupCodes([NO_CODE; MOST_GROUPS]);
+        for (index, group) in control.groups.iter().enumerate() {
+            codes.0[index] = self.decide(&group.power_on).unwrap_or(NO_CODE);
+        }
+        codes
+    }
+
+    /// Every group's state after a reset.
+    pub fn reset(&self, control: &Control, before: GroupCodes) -> GroupCodes {
+        let mut codes = before;
+        for (index, group) in control.groups.iter().enumerate() {
+            if let Some(row) = self.decide(&group.reset) {
+                codes.0[index] = row;
+            }
+        }
+        codes
+    }
+}
+
+/// A parameter's value as users write it.
+fn parse_value(text: &str, kind: ParameterKind) -> Option<f64> {
+    let text = text.trim();
+    if kind == ParameterKind::Bits {
+        if let Some(bits) = text.strip_prefix("0b") {
+            return u8::from_str_radix(bits, 2).ok().map(f64::from);
+        }
+        if text.len() == 8 && text.bytes().all(|b| b == b'0' || b == b'1') {
+            return u8::from_str_radix(text, 2).ok().map(f64::from);
+        }
+        return text.parse::<u8>().ok().map(f64::from);
+    }
+    text.parse::<f64>().ok().filter(|value| value.is_finite())
+}

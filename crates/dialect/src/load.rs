@@ -1,0 +1,322 @@
+//! The tables of one control, read and held against each other.
+//!
+//! Every error points into the TOML file in which it stands; all errors are reported together.
+
+mod alarms;
+mod codes;
+mod settings;
+
+use data::{DataError, Document, Table};
+use syntax::{Colon, Grammar, LowerCase, Semicolon};
+
+use crate::control::{Control, Group, GroupRule, Grouping, MOST_GROUPS, Roles, Tolerances};
+use crate::meaning::Meaning;
+use crate::row::{Certainty, GCode, Origin, ParameterRow};
+
+/// The text of a control's files.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ControlFiles {
+    /// The folder's name, for messages.
+    pub folder: String,
+    /// File name and text of every table.
+    pub tables: Vec<(String, String)>,
+    /// The text of `conditions.toml`, shared by all controls.
+    pub conditions: String,
+}
+
+impl ControlFiles {
+    fn read<T>(&self, name: &str, build: impl FnOnce(&mut Table) -> T) -> Result<T, Vec<DataError>> {
+        let path = format!("{}/{name}", self.folder);
+        match self.tables.iter().find(|(file, _)| file == name) {
+            Some((_, text)) => Document::read(&path, text, build),
+            None => Err(vec![DataError::at(&path, "", 0..0, format!("`{name}` is missing from the control's folder"))]),
+        }
+    }
+}
+
+/// What a row rests on: its `certainty` and `source`.
+fn origin(row: &mut Table) -> Origin {
+    row.require("source");
+    let place = row.place_of("certainty");
+    let letter = row.required_string("certainty");
+    let mut letters = letter.chars();
+    let certainty = match (letters.next(), letters.next()) {
+        (Some(mark @ 'A'..='Z'), None) => mark,
+        _ => {
+            if let Some(place) = place {
+                row.error(place, "certainty is one capital letter");
+            }
+            '?'
+        }
+    };
+    Origin { certainty: Certainty(certainty), source: row.string("source").unwrap_or_default() }
+}
+
+/// A list of two numbers, lowest first.
+fn range(row: &mut Table, key: &'static str) -> Option<[f64; 2]> {
+    let place = row.place_of(key)?;
+    let list = row.numbers(key)?;
+    match list[..] {
+        [low, high] if low <= high => Some([low, high]),
+        _ => {
+            row.error(place, format!("{key} is a list of two numbers, the lowest first"));
+            None
+        }
+    }
+}
+
+/// Rows by their number, for codes 0 to 999.
+fn index_by(codes: impl Iterator<Item = u16>) -> Vec<u8> {
+    let mut index = vec![crate::control::NO_CODE; 1000];
+    for (row, code) in codes.enumerate() {
+        if let Some(slot) = index.get_mut(usize::from(code)) {
+            *slot = row as u8;
+        }
+    }
+    index
+}
+
+struct Head {
+    name: String,
+    title: String,
+    maker: String,
+    summary: String,
+    stock_machine: String,
+    grammar: Grammar,
+    grouping: Grouping,
+    last_word_wins: bool,
+    increments: [i64; 3],
+    read_ahead: [usize; 3],
+    levels: [usize; 2],
+    highest_offset: u32,
+    offset_limit_mm: f64,
+    common_offsets: bool,
+    cycle_codes: [u32; 4],
+    base_code: Option<String>,
+    groups: Vec<codes::GroupDraft>,
+    options: Vec<crate::row::OptionRow>,
+    policies: Vec<crate::row::PolicyRow>,
+}
+
+fn grammar(root: &mut Table) -> (Grammar, bool, Grouping) {
+    let read = |t: &mut Table| {
+        t.require("block_length");
+        t.integer("sequence_digits");
+        t.integer("program_digits");
+        let grammar = Grammar {
+            semicolon: t
+                .choice("semicolon", &[("end-of-block", Semicolon::EndOfBlock), ("comment", Semicolon::Comment)])
+                .unwrap_or_default(),
+            lower_case: t.choice("lower_case", &[("refuse", LowerCase::Refuse), ("fold", LowerCase::Fold)]).unwrap_or_default(),
+            colon: t.choice("colon", &[("program-number", Colon::ProgramNumber), ("refuse", Colon::Refuse)]).unwrap_or_default(),
+            block_length: t.integer("block_length").and_then(|n| u32::try_from(n).ok()).unwrap_or(u32::MAX),
+        };
+        let last = t.choice("repeated_word", &[("last-wins", true), ("refuse", false)]).unwrap_or(true);
+        let grouping = t.choice("programs", &[("o-words", Grouping::OWords), ("files", Grouping::Files)]);
+        (grammar, last, grouping.unwrap_or(Grouping::OWords))
+    };
+    root.require("grammar");
+    root.table("grammar", read).unwrap_or((Grammar::default(), true, Grouping::OWords))
+}
+
+fn small(value: Option<i64>) -> usize {
+    value.and_then(|n| usize::try_from(n).ok()).unwrap_or(0)
+}
+
+fn head(root: &mut Table) -> Head {
+    let format_place = root.place_of("format");
+    root.require("format");
+    if let (Some(format), Some(place)) = (root.integer("format"), format_place)
+        && format != 1
+    {
+        root.error(place, format!("format {format} is not known; this program reads format 1"));
+    }
+    let (grammar, last_word_wins, grouping) = grammar(root);
+    for key in ["increments", "read_ahead", "nesting", "offsets", "cycle"] {
+        root.require(key);
+    }
+    let increments = root.table("increments", |t| {
+        let mut counts = |key, unit: f64, fallback: i64| t.number(key).map_or(fallback, |value| (value * unit).round() as i64);
+        [counts("metric_mm", 1e6, 1000), counts("inch_in", 25.4e6, 2540), counts("rotary_deg", 1e6, 1000)]
+    });
+    let increments = increments.filter(|all| all.iter().all(|&n| n > 0)).unwrap_or([1000, 2540, 1000]);
+    let read_ahead =
+        root.table("read_ahead", |t| [small(t.integer("blocks")), small(t.integer("compensation")), small(t.integer("buffering"))]);
+    let levels = root.table("nesting", |t| [small(t.integer("subprograms")), small(t.integer("macros"))]);
+    let offsets = root.table("offsets", |t| {
+        let common = t.choice("table", &[("common", true), ("columns", false)]).unwrap_or(true);
+        (common, small(t.integer("highest")) as u32, t.number("limit_mm").unwrap_or(f64::MAX))
+    });
+    let (common_offsets, highest_offset, offset_limit_mm) = offsets.unwrap_or((true, 99, f64::MAX));
+    let cycle_codes = root.table("cycle", |t| {
+        ["spindle_forward", "spindle_reverse", "spindle_stop", "spindle_orient"].map(|key| small(t.integer(key)) as u32)
+    });
+    let base_code = root.table("work", |t| {
+        t.strings("systems");
+        t.string("base")
+    });
+    Head {
+        name: root.required_string("name"),
+        title: root.required_string("title"),
+        maker: root.required_string("maker"),
+        summary: root.required_string("summary"),
+        stock_machine: root.required_string("stock_machine"),
+        grammar,
+        grouping,
+        last_word_wins,
+        increments,
+        read_ahead: read_ahead.unwrap_or([1; 3]),
+        levels: levels.unwrap_or([4; 2]),
+        highest_offset,
+        offset_limit_mm,
+        common_offsets,
+        cycle_codes: cycle_codes.unwrap_or_default(),
+        base_code: base_code.flatten(),
+        groups: root.tables("group", codes::group),
+        options: root.tables("option", settings::option),
+        policies: root.tables("policy", settings::policy),
+    }
+}
+
+/// Reads and validates a control.
+///
+/// # Errors
+/// Everything that is wrong with its tables, each error at its place in its file.
+pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
+    let mut errors = Vec::new();
+    let mut keep = |found: Vec<DataError>| errors.extend(found);
+    let head = files.read("control.toml", head).map_err(&mut keep).ok();
+    let parameters = files.read("parameters.toml", settings::parameters).map_err(&mut keep).ok();
+    let addresses = files.read("addresses.toml", settings::addresses).map_err(&mut keep).ok();
+    let m_codes = files.read("m_codes.toml", codes::m_codes).map_err(&mut keep).ok();
+    let (Some(head), Some(parameters), Some(addresses), Some((m_ranges, m_codes))) = (head, parameters, addresses, m_codes)
+    else {
+        return Err(errors);
+    };
+    let numbers: Vec<u8> = head.groups.iter().map(|group| group.number).collect();
+    let g_codes = files.read("g_codes.toml", |t| codes::g_codes(t, &numbers, &head.options))?;
+    let g_index = index_by(g_codes.iter().map(|row| row.code));
+    let (alarms, alarm_of_condition) = files.read("alarms.toml", alarms::alarms)?;
+    let sentences = Document::read("controls/conditions.toml", &files.conditions, alarms::sentences)?;
+    let groups = resolve_groups(files, &head.groups, &g_codes, &parameters)?;
+    let roles = find_roles(files, &groups, &g_codes)?;
+    let base_system = head.base_code.as_deref().and_then(|name| codes::row_of_name(&g_codes, name));
+    let tolerances = Tolerances {
+        cycle_clearance: parameter_index(files, &parameters, "cycle clearance")?,
+        arc_radius: parameter_index(files, &parameters, "arc radius tolerance")?,
+        arc_end: parameter_index(files, &parameters, "arc end limit")?,
+    };
+    Ok(Control {
+        name: head.name,
+        title: head.title,
+        maker: head.maker,
+        summary: head.summary,
+        stock_machine: head.stock_machine,
+        grammar: head.grammar,
+        grouping: head.grouping,
+        last_word_wins: head.last_word_wins,
+        increments: head.increments,
+        read_ahead: head.read_ahead,
+        subprogram_levels: head.levels[0],
+        macro_levels: head.levels[1],
+        highest_offset: head.highest_offset,
+        offset_limit_mm: head.offset_limit_mm,
+        common_offsets: head.common_offsets,
+        cycle_codes: head.cycle_codes,
+        base_system,
+        m_ranges,
+        groups,
+        roles,
+        tolerances,
+        m_index: index_by(m_codes.iter().map(|row| row.code)),
+        m_codes,
+        g_codes,
+        g_index,
+        addresses,
+        options: head.options,
+        policies: head.policies,
+        parameters,
+        alarms,
+        sentences,
+        alarm_of_condition,
+    })
+}
+
+fn refuse(files: &ControlFiles, file: &str, message: String) -> Vec<DataError> {
+    vec![DataError::at(&format!("{}/{file}", files.folder), "", 0..0, message)]
+}
+
+fn parameter_index(files: &ControlFiles, rows: &[ParameterRow], name: &str) -> Result<usize, Vec<DataError>> {
+    rows.iter()
+        .position(|row| row.name == name)
+        .ok_or_else(|| refuse(files, "parameters.toml", format!("the parameter \"{name}\" is missing")))
+}
+
+/// The names of a group's states as rows of the G table.
+fn resolve_groups(
+    files: &ControlFiles,
+    drafts: &[codes::GroupDraft],
+    rows: &[GCode],
+    parameters: &[ParameterRow],
+) -> Result<Vec<Group>, Vec<DataError>> {
+    if drafts.len() > MOST_GROUPS {
+        return Err(refuse(files, "control.toml", format!("more than {MOST_GROUPS} modal groups")));
+    }
+    let mut groups = Vec::with_capacity(drafts.len());
+    for (index, draft) in drafts.iter().enumerate() {
+        let row = |name: &String| -> Result<Option<u8>, Vec<DataError>> {
+            if name == "keep" {
+                return Ok(None);
+            }
+            codes::row_of_name(rows, name)
+                .filter(|&row| rows[usize::from(row)].group == Some(index as u8))
+                .map(Some)
+                .ok_or_else(|| refuse(files, "control.toml", format!("group {}: {name} is no code of it", draft.number)))
+        };
+        let rule = |draft_rule: &codes::RuleDraft| -> Result<GroupRule, Vec<DataError>> {
+            let parameter = match &draft_rule.parameter {
+                None => None,
+                Some((name, bits, names)) => {
+                    let parameter = parameter_index(files, parameters, name)?;
+                    Some((parameter, bits.clone(), names.iter().map(row).collect::<Result<Vec<_>, _>>()?))
+                }
+            };
+            Ok(GroupRule { row: row(&draft_rule.code)?, parameter })
+        };
+        groups.push(Group {
+            number: draft.number,
+            name: draft.name.clone(),
+            power_on: rule(&draft.power_on)?,
+            reset: rule(&draft.reset)?,
+            origin: draft.origin.clone(),
+        });
+    }
+    Ok(groups)
+}
+
+fn find_roles(files: &ControlFiles, groups: &[Group], rows: &[GCode]) -> Result<Roles, Vec<DataError>> {
+    let of = |meaning: Meaning| -> Result<usize, Vec<DataError>> {
+        rows.iter()
+            .find(|row| row.meaning == meaning)
+            .and_then(|row| row.group)
+            .map(usize::from)
+            .filter(|&group| group < groups.len())
+            .ok_or_else(|| {
+                let name = Meaning::TABLE.iter().find(|(_, m)| *m == meaning).map_or("?", |(name, _)| name);
+                refuse(files, "g_codes.toml", format!("no modal code means `{name}`"))
+            })
+    };
+    Ok(Roles {
+        motion: of(Meaning::Rapid)?,
+        plane: of(Meaning::PlaneXy)?,
+        distance: of(Meaning::Absolute)?,
+        feed_mode: of(Meaning::FeedPerMinute)?,
+        units: of(Meaning::Metric)?,
+        compensation: of(Meaning::CompensationOff)?,
+        length: of(Meaning::LengthOff)?,
+        cycle: of(Meaning::CycleOff)?,
+        return_level: of(Meaning::ReturnInitial)?,
+        work: of(Meaning::WorkSystem)?,
+        stop_mode: of(Meaning::CuttingMode)?,
+    })
+}

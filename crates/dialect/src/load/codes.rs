@@ -1,0 +1,152 @@
+//! `control.toml`'s groups, `g_codes.toml` and `m_codes.toml`.
+
+use data::Table;
+
+use super::origin;
+use crate::meaning::{MMeaning, Meaning};
+use crate::row::{Division, GCode, MCode, OptionRow, Origin};
+
+/// A group whose codes are still names.
+pub(super) struct GroupDraft {
+    pub number: u8,
+    pub name: String,
+    pub power_on: RuleDraft,
+    pub reset: RuleDraft,
+    pub origin: Origin,
+}
+
+/// A rule whose codes are still names; the parameter is its name, its bits, a code for each value.
+pub(super) struct RuleDraft {
+    pub code: String,
+    pub parameter: Option<(String, Vec<u8>, Vec<String>)>,
+}
+
+fn rule(row: &mut Table, code: &'static str, parameter: &'static str) -> RuleDraft {
+    RuleDraft {
+        code: row.required_string(code),
+        parameter: row.table(parameter, |t| {
+            let number = t.integer("number").map(|n| n.to_string());
+            let bits = t.integers("bits").unwrap_or_default();
+            let codes = t.strings("codes").unwrap_or_default();
+            if bits.is_empty() || bits.iter().any(|bit| !(0..8).contains(bit)) || codes.len() != 1 << bits.len().min(8) {
+                t.error_here("bits are numbers 0 to 7, and codes has one entry for each of their values");
+            }
+            (number.or_else(|| t.string("name")).unwrap_or_default(), bits.iter().map(|&b| b as u8).collect(), codes)
+        }),
+    }
+}
+
+pub(super) fn group(row: &mut Table) -> GroupDraft {
+    let number = row.integer("number").and_then(|n| u8::try_from(n).ok()).unwrap_or(0);
+    GroupDraft {
+        number,
+        name: row.required_string("name"),
+        power_on: rule(row, "power_on", "power_on_parameter"),
+        reset: rule(row, "reset", "reset_parameter"),
+        origin: origin(row),
+    }
+}
+
+/// A code by its name (`G54`).
+pub(super) fn row_of_name(rows: &[GCode], name: &str) -> Option<u8> {
+    let code: u16 = name.strip_prefix('G')?.parse().ok()?;
+    rows.iter().position(|row| row.code == code).map(|row| row as u8)
+}
+
+fn code_number(row: &mut Table, key: &'static str, seen: &mut Vec<u16>) -> u16 {
+    row.require(key);
+    let place = row.place_of(key).unwrap_or_else(|| row.range());
+    let code = row.integer(key).and_then(|n| u16::try_from(n).ok()).unwrap_or(u16::MAX);
+    if code > 999 {
+        row.error(place, format!("{key} is a number from 0 to 999"));
+    } else if seen.contains(&code) {
+        row.error(place, format!("{key} = {code} has a row already"));
+    } else {
+        seen.push(code);
+    }
+    code
+}
+
+pub(super) fn g_codes(root: &mut Table, groups: &[u8], options: &[OptionRow]) -> Vec<GCode> {
+    let mut seen = Vec::new();
+    let rows = root.tables("code", |row| g_code(row, groups, options, &mut seen));
+    if rows.len() >= usize::from(crate::control::NO_CODE) {
+        root.error_here("more than 254 G codes");
+    }
+    rows
+}
+
+fn g_code(row: &mut Table, groups: &[u8], options: &[OptionRow], seen: &mut Vec<u16>) -> GCode {
+    let code = code_number(row, "g", seen);
+    let group_place = row.place_of("group");
+    let group_number = row.integer("group");
+    let one_shot = row.boolean("one_shot").unwrap_or(false);
+    let division = row.choice("division", &[("basic", 0), ("option", 1), ("sibling", 2)]).unwrap_or(0);
+    row.require("division");
+    let option_place = row.place_of("option").unwrap_or_else(|| row.range());
+    let option = row.string("option");
+    let division = match (division, option) {
+        (0, None) => Division::Basic,
+        (2, None) => Division::Sibling,
+        (1, Some(name)) => match options.iter().position(|row| row.name == name) {
+            Some(index) => Division::Option(index as u8),
+            None => {
+                row.error(option_place, format!("there is no option `{name}` in control.toml"));
+                Division::Basic
+            }
+        },
+        _ => {
+            row.error_here("`option` names the option of a code whose division is \"option\", and of no other");
+            Division::Basic
+        }
+    };
+    let group = match (group_number, one_shot) {
+        (Some(number), false) => {
+            let index = groups.iter().position(|&known| i64::from(known) == number);
+            // Codes that only related controls have may belong to groups that this control lacks.
+            if index.is_none() && division != Division::Sibling {
+                row.error(group_place.unwrap_or_default(), format!("there is no group {number} in control.toml"));
+            }
+            index.map(|index| index as u8)
+        }
+        (None, true) => None,
+        (None, false) if division == Division::Sibling => None,
+        _ => {
+            row.error_here("a code has either `group` or `one_shot = true`");
+            None
+        }
+    };
+    GCode {
+        code,
+        group,
+        division,
+        meaning: row.choice("meaning", Meaning::TABLE).unwrap_or(Meaning::Dwell),
+        number: row.integer("number").and_then(|n| u8::try_from(n).ok()).unwrap_or(0),
+        text: row.required_string("text"),
+        origin: origin(row),
+    }
+}
+
+pub(super) fn m_codes(root: &mut Table) -> ([[u32; 2]; 3], Vec<MCode>) {
+    root.require("range");
+    let ranges = root.table("range", |t| {
+        ["machine", "control", "extended"].map(|key| {
+            let list = t.integers(key).unwrap_or_default();
+            match list[..] {
+                [low, high] if 0 <= low && low <= high => [low as u32, high as u32],
+                _ => [1, 0],
+            }
+        })
+    });
+    let mut seen = Vec::new();
+    let rows = root.tables("code", |row| MCode {
+        code: code_number(row, "m", &mut seen),
+        meaning: row.choice("meaning", MMeaning::TABLE).unwrap_or(MMeaning::ProgramStop),
+        decoded: row.string("decoded"),
+        to_machine: row.boolean("to_machine").unwrap_or(false),
+        stops_read_ahead: row.boolean("stops_read_ahead").unwrap_or(false),
+        text: row.required_string("text"),
+        origin: origin(row),
+    });
+    (ranges.unwrap_or([[1, 0]; 3]), rows)
+}

@@ -1,0 +1,111 @@
+//! Options, policies, `parameters.toml` and `addresses.toml`.
+
+use data::Table;
+
+use super::{origin, range};
+use crate::address::{Address, AddressKind, PointRule};
+use crate::row::{OptionRow, ParameterBit, ParameterKind, ParameterRow, PolicyRow};
+
+pub(super) fn option(row: &mut Table) -> OptionRow {
+    row.require("default");
+    OptionRow {
+        name: row.required_string("name"),
+        text: row.required_string("text"),
+        default: row.boolean("default").unwrap_or(true),
+        excludes: row.strings("excludes").unwrap_or_default(),
+        origin: origin(row),
+    }
+}
+
+pub(super) fn policy(row: &mut Table) -> PolicyRow {
+    let values = row.strings("values").unwrap_or_default();
+    let place = row.place_of("default").unwrap_or_else(|| row.range());
+    let default = row.required_string("default");
+    let index = values.iter().position(|value| *value == default);
+    if index.is_none() {
+        row.error(place, format!("default \"{default}\" is not one of the values"));
+    }
+    PolicyRow {
+        name: row.required_string("name"),
+        values,
+        default: index.unwrap_or(0),
+        text: row.required_string("text"),
+        origin: origin(row),
+    }
+}
+
+pub(super) fn parameters(root: &mut Table) -> Vec<ParameterRow> {
+    root.tables("parameter", |row| {
+        let number = row.integer("number").map(|n| n.to_string());
+        let name = row.string("name");
+        if number.is_none() && name.is_none() {
+            row.error_here("a parameter has a `number` or a `name`");
+        }
+        row.require("kind");
+        let kinds = [("bits", ParameterKind::Bits), ("length", ParameterKind::Length), ("number", ParameterKind::Number)];
+        ParameterRow {
+            name: number.or(name).unwrap_or_default(),
+            kind: row.choice("kind", &kinds).unwrap_or(ParameterKind::Number),
+            default: row.number("default").unwrap_or(0.0),
+            range: range(row, "range"),
+            text: row.required_string("text"),
+            bits: row.tables("bit", |bit| ParameterBit {
+                bit: bit.integer("bit").and_then(|n| u8::try_from(n).ok()).unwrap_or(0),
+                text: bit.required_string("text"),
+                origin: origin(bit),
+            }),
+            origin: origin(row),
+        }
+    })
+}
+
+pub(super) fn addresses(root: &mut Table) -> [Option<Address>; 26] {
+    let mut all: [Option<Address>; 26] = std::array::from_fn(|_| None);
+    let rows = root.tables("address", |row| {
+        let place = row.range();
+        (place, address(row))
+    });
+    for (place, row) in rows {
+        match all.get_mut(usize::from(row.letter.wrapping_sub(b'A'))) {
+            Some(slot) if slot.is_none() => *slot = Some(row),
+            _ => root.error(place, "letter is one of A to Z, and each has one row"),
+        }
+    }
+    all
+}
+
+fn address(row: &mut Table) -> Address {
+    let letter = row.required_string("letter");
+    row.require("kind");
+    let kinds = [
+        ("axis", AddressKind::LinearAxis),
+        ("length", AddressKind::Length),
+        ("code", AddressKind::Code),
+        ("number", AddressKind::Number),
+        ("feed", AddressKind::Feed),
+        ("time-or-number", AddressKind::TimeOrNumber),
+        ("macro-only", AddressKind::MacroOnly),
+    ];
+    let kind = row.choice("kind", &kinds).unwrap_or(AddressKind::Number);
+    let rotary = row.choice("axis_kind", &[("linear", false), ("rotary", true)]).unwrap_or(false);
+    let everything = [f64::MIN, f64::MAX];
+    let whole = range(row, "range").unwrap_or([0.0, 999_999_999.0]);
+    let mut of = |key| range(row, key).unwrap_or(everything);
+    Address {
+        letter: letter.bytes().next().unwrap_or(0),
+        kind: if rotary { AddressKind::RotaryAxis } else { kind },
+        metric: of("metric"),
+        inch: of("inch"),
+        rotary: of("rotary"),
+        feed: [of("metric_per_minute"), of("inch_per_minute"), of("metric_per_revolution"), of("inch_per_revolution")],
+        seconds: of("seconds"),
+        digits: row.integer("digits").and_then(|n| u8::try_from(n).ok()).unwrap_or(u8::MAX),
+        range: whole.map(|value| value as i64),
+        point: row
+            .choice("point", &[("yes", PointRule::Yes), ("no", PointRule::No), ("dwell", PointRule::Dwell)])
+            .unwrap_or(PointRule::No),
+        alarm: row.required_string("alarm"),
+        text: row.required_string("text"),
+        origin: origin(row),
+    }
+}

@@ -1,0 +1,166 @@
+//! Policies and options that the stages ask for, resolved once from the control's tables.
+//!
+//! A policy names a behaviour on which a maker's text is silent. The tables list every policy with its values,
+//! default, certainty and source; this file gives those that code reads a type. A control whose tables lack a
+//! policy or an option behaves as the first value here says, or has the function without any option.
+
+macro_rules! policies {
+    ($($(#[$doc:meta])* $field:ident: $kind:ident = $name:literal {
+        $(#[$fdoc:meta])* $first:ident = $fword:literal, $($(#[$vdoc:meta])* $value:ident = $word:literal,)*
+    })*) => {
+        $($(#[$doc])* #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+        pub enum $kind { #[default] $(#[$fdoc])* $first, $($(#[$vdoc])* $value,)* })*
+
+        /// Every policy that code reads, as set for one machine.
+        #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+        pub struct Policies { $($(#[$doc])* pub $field: $kind,)* }
+
+        impl Policies {
+            /// Sets a policy by its names in the tables; names that no code reads yet change nothing.
+            pub(crate) fn set(&mut self, policy: &str, value: &str) {
+                match (policy, value) {
+                    $(($name, $fword) => self.$field = $kind::$first,
+                    $(($name, $word) => self.$field = $kind::$value,)*)*
+                    _ => {}
+                }
+            }
+        }
+
+        #[cfg(test)]
+        pub(crate) const KNOWN: &[(&str, &[&str])] = &[$(($name, &[$fword, $($word,)*]),)*];
+    };
+}
+
+policies! {
+    /// Which G codes may stand beside a one-shot code.
+    one_shot_company: OneShotCompany = "one-shot-company" {
+        /// Modal codes of every group but the movements.
+        Practical = "practical",
+        /// None, by the letter of the manual.
+        Literal = "literal",
+        /// Any modal code.
+        Lenient = "lenient",
+    }
+    /// What a movement code and a canned cycle in one block are.
+    cycle_with_motion: CycleWithMotion = "cycle-with-group-01" {
+        /// Refused.
+        Refuse = "refuse",
+        /// The later of the two counts.
+        LaterWins = "later-wins",
+    }
+    /// Whether a cycle block with L0 positions.
+    cycle_l0_moves: CycleL0Moves = "cycle-l0-moves" {
+        /// It only stores data.
+        No = "no",
+        /// It goes to X Y without a hole.
+        Yes = "yes",
+    }
+    /// What becomes of a displacement by G45 to G48 in the next absolute block.
+    position_offset_absolute: PositionOffsetAbsolute = "position-offset-absolute" {
+        /// The block goes to its programmed point.
+        Dropped = "dropped",
+        /// The displacement is added until the opposite code takes it back.
+        Kept = "kept",
+    }
+    /// Which letter selects the value for G45 to G48.
+    position_offset_letter: PositionOffsetLetter = "position-offset-letter" {
+        /// D alone.
+        D = "d",
+        /// D, or H where no D stands in the block.
+        DOrH = "d-or-h",
+    }
+    /// What G45 to G48 do to an arc given by its radius.
+    position_offset_arc_radius: PositionOffsetArcRadius = "position-offset-arc-radius" {
+        /// Refused: the text speaks of I, J, K only.
+        Refuse = "refuse",
+        /// The radius stays as written.
+        Unchanged = "unchanged",
+    }
+    /// Whether M01 with its switch off is sent to the machine.
+    m01_off_output: M01OffOutput = "m01-off-output" {
+        /// No.
+        None = "none",
+        /// The code goes out, the control does not stop.
+        Code = "code",
+    }
+    /// What a plain F counts in inch input.
+    inch_feed_integer: InchFeedInteger = "inch-feed-integer" {
+        /// 0.1 in/min.
+        Tenth = "0.1",
+        /// 1 in/min.
+        One = "1",
+    }
+    /// What G92 sets.
+    g92_system: G92System = "g92-system" {
+        /// The base system, which it selects.
+        Base = "base",
+        /// All systems shift together.
+        All = "all",
+    }
+    /// What an arc with neither centre nor radius is.
+    arc_without_centre: ArcWithoutCentre = "arc-without-centre" {
+        /// An alarm.
+        Alarm = "alarm",
+        /// A straight cut.
+        StraightLine = "straight-line",
+    }
+    /// What an M code above 99 is on a two-digit interface.
+    m_over_99: MOver99 = "m-over-99" {
+        /// An alarm.
+        Alarm = "alarm",
+        /// The hundreds are dropped.
+        DropHundreds = "drop-hundreds",
+    }
+    /// When a move out of the travel is found.
+    stroke_check: StrokeCheck = "stroke-check" {
+        /// Before the move begins.
+        BeforeBlock = "before-block",
+        /// At the border.
+        AtBorder = "at-border",
+    }
+    /// Whether F survives a change between feed per minute and per revolution.
+    feed_mode_change: FeedModeChange = "feed-mode-change" {
+        /// A new F must be programmed.
+        NeedsF = "needs-f",
+        /// The number stays and takes the new unit.
+        KeepsNumber = "keeps-number",
+    }
+}
+
+macro_rules! options {
+    ($($(#[$doc:meta])* $field:ident = $name:literal,)*) => {
+        /// Every option that code asks for, fitted or not. An option that a control does not list is part of it.
+        #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+        pub struct Options { $($(#[$doc])* pub $field: bool,)* }
+
+        impl Default for Options {
+            fn default() -> Self { Options { $($field: true,)* } }
+        }
+
+        impl Options {
+            pub(crate) fn set(&mut self, name: &str, fitted: bool) {
+                match name { $($name => self.$field = fitted,)* _ => {} }
+            }
+        }
+
+        #[cfg(test)]
+        pub(crate) const ASKED: &[&str] = &[$($name,)*];
+    };
+}
+
+options! {
+    /// The third axis in an arc block.
+    helical = "helical",
+    /// X as the time of a dwell.
+    dwell_x = "dwell-x",
+    /// More than one M code in a block.
+    several_m_codes = "several-m-codes",
+    /// M codes of three digits on the lines.
+    m_three_digits = "m-three-digits",
+    /// Block-delete switches 2 to 9.
+    block_delete_2_9 = "block-delete-2-9",
+    /// B is the code of an index table.
+    b_function = "b-function",
+    /// User macros.
+    user_macro = "user-macro",
+}

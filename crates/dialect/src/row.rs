@@ -1,0 +1,143 @@
+//! The rows of a control's tables, each with what it rests on.
+
+use crate::meaning::{MMeaning, Meaning};
+
+/// How sure a statement about a control is; each control's `control.toml` says what its letters mean.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Certainty(pub char);
+
+/// What a row rests on.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Origin {
+    /// How sure it is.
+    pub certainty: Certainty,
+    /// Document and section, or "assumed" with the reason.
+    pub source: String,
+}
+
+/// Whether a control of this kind has a code.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Division {
+    /// Always.
+    Basic,
+    /// With the option of this index fitted.
+    Option(u8),
+    /// Only related controls have it.
+    Sibling,
+}
+
+/// One G code.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct GCode {
+    /// Its number.
+    pub code: u16,
+    /// Index of its modal group; `None` for one-shot codes.
+    pub group: Option<u8>,
+    /// Whether the control has it.
+    pub division: Division,
+    /// What it does.
+    pub meaning: Meaning,
+    /// Which one of several alike (work system 1 to 6), 0 otherwise.
+    pub number: u8,
+    /// What it does, for people.
+    pub text: String,
+    /// What the row rests on.
+    pub origin: Origin,
+}
+
+impl GCode {
+    /// True for codes that act in their own block only.
+    pub const fn is_one_shot(&self) -> bool {
+        self.group.is_none()
+    }
+}
+
+/// One M code that the control itself knows.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct MCode {
+    /// Its number.
+    pub code: u16,
+    /// What the control does with it.
+    pub meaning: MMeaning,
+    /// The name of the line that carries it decoded, if there is one.
+    pub decoded: Option<String>,
+    /// True if it is also sent to the machine.
+    pub to_machine: bool,
+    /// True if the next block is not read before this one is done.
+    pub stops_read_ahead: bool,
+    /// What it does, for people.
+    pub text: String,
+    /// What the row rests on.
+    pub origin: Origin,
+}
+
+/// An option of the control, fitted or not.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct OptionRow {
+    /// Its name.
+    pub name: String,
+    /// What it adds, for people.
+    pub text: String,
+    /// Fitted unless said otherwise.
+    pub default: bool,
+    /// Options that cannot be fitted together with it.
+    pub excludes: Vec<String>,
+    /// What the row rests on.
+    pub origin: Origin,
+}
+
+/// A behaviour on which the maker's text is silent.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct PolicyRow {
+    /// Its name.
+    pub name: String,
+    /// The ways in which it can be read.
+    pub values: Vec<String>,
+    /// Index of the value taken unless said otherwise.
+    pub default: usize,
+    /// What is open and what each value does, for people.
+    pub text: String,
+    /// What the default rests on.
+    pub origin: Origin,
+}
+
+/// What a parameter holds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ParameterKind {
+    /// Eight switches D7 to D0.
+    Bits,
+    /// A length in mm.
+    Length,
+    /// A plain number.
+    Number,
+}
+
+/// One bit of a parameter.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ParameterBit {
+    /// 0 to 7.
+    pub bit: u8,
+    /// What it does, for people.
+    pub text: String,
+    /// What the row rests on.
+    pub origin: Origin,
+}
+
+/// A parameter or setting of the control.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ParameterRow {
+    /// Its number or its name, as users write it.
+    pub name: String,
+    /// What it holds.
+    pub kind: ParameterKind,
+    /// Its value when new.
+    pub default: f64,
+    /// The values it may have.
+    pub range: Option<[f64; 2]>,
+    /// What it does, for people.
+    pub text: String,
+    /// Its bits, for switches.
+    pub bits: Vec<ParameterBit>,
+    /// What the row rests on.
+    pub origin: Origin,
+}

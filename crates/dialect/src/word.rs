@@ -1,0 +1,151 @@
+//! Numbers of words as this control means them: least increments, the decimal-point rule, ranges.
+
+use base::{Condition, Decimal, UnitSystem, units::NM_PER_INCH};
+
+use crate::address::{Address, AddressKind, PointRule};
+use crate::control::Control;
+
+/// A refused number: the condition and its values.
+pub type Refused = (Condition, [f64; 3]);
+
+const MM: i64 = 1_000_000;
+const DEGREE: i64 = 1_000_000;
+
+impl Control {
+    /// A word as a length in nanometres. Without a point it counts least increments.
+    ///
+    /// # Errors
+    /// The value lies outside the address's range.
+    pub fn length(&self, address: &Address, number: Decimal, units: UnitSystem) -> Result<i64, Refused> {
+        let (increment, unit, range) = match units {
+            UnitSystem::Metric => (self.increments[0], MM, address.metric),
+            UnitSystem::Inch => (self.increments[1], NM_PER_INCH, address.inch),
+        };
+        counts(number, increment, unit, range)
+    }
+
+    /// A word as an angle in microdegrees. Without a point it counts least increments.
+    ///
+    /// # Errors
+    /// The value lies outside the address's range.
+    pub fn angle(&self, address: &Address, number: Decimal) -> Result<i64, Refused> {
+        counts(number, self.increments[2], DEGREE, address.rotary)
+    }
+
+    /// A word of an axis, nanometres or microdegrees.
+    ///
+    /// # Errors
+    /// The value lies outside the address's range.
+    pub fn axis_value(&self, address: &Address, number: Decimal, units: UnitSystem) -> Result<i64, Refused> {
+        match address.kind {
+            AddressKind::RotaryAxis => self.angle(address, number),
+            _ => self.length(address, number, units),
+        }
+    }
+
+    /// A word as a whole number.
+    ///
+    /// # Errors
+    /// A point that may not be, too many digits, a value outside the range.
+    pub fn integer(&self, address: &Address, number: Decimal) -> Result<i64, Refused> {
+        if number.point && address.point == PointRule::No {
+            return Err((Condition::PointNotAllowed, [0.0; 3]));
+        }
+        if address.kind == AddressKind::Code && number.digits > address.digits {
+            return Err((Condition::DigitsTooMany, [f64::from(number.digits), f64::from(address.digits), 0.0]));
+        }
+        let Some(value) = number.integer() else { return Err((Condition::PointNotAllowed, [0.0; 3])) };
+        let [low, high] = address.range;
+        if value < low || value > high || (number.negative && low >= 0 && value != 0) {
+            return Err((Condition::ValueOutOfRange, [value as f64, low as f64, high as f64]));
+        }
+        Ok(value)
+    }
+
+    /// A dwell's P (or X) as seconds: milliseconds without a point, seconds with one.
+    ///
+    /// # Errors
+    /// The value lies outside the address's range.
+    pub fn dwell_seconds(&self, address: &Address, number: Decimal) -> Result<f64, Refused> {
+        let milliseconds = if number.point { number.scaled(3) } else { number.integer() };
+        let seconds = milliseconds.unwrap_or(i64::MAX) as f64 / 1000.0;
+        let [low, high] = address.seconds;
+        if seconds < low || seconds > high {
+            return Err((Condition::ValueOutOfRange, [seconds, low, high]));
+        }
+        Ok(seconds)
+    }
+
+    /// A feed per minute in nanometres, `inch_tenths` says that a plain number in inch input counts 0.1 in/min.
+    ///
+    /// # Errors
+    /// The value lies outside the address's range.
+    pub fn feed_per_minute(
+        &self,
+        address: &Address,
+        number: Decimal,
+        units: UnitSystem,
+        inch_tenths: bool,
+    ) -> Result<f64, Refused> {
+        let (plain, unit, range) = match units {
+            UnitSystem::Metric => (MM, MM, address.feed[0]),
+            UnitSystem::Inch => (if inch_tenths { NM_PER_INCH / 10 } else { NM_PER_INCH }, NM_PER_INCH, address.feed[1]),
+        };
+        feed(number, plain, unit, range)
+    }
+
+    /// A feed per revolution in nanometres. Without a point it counts least increments.
+    ///
+    /// # Errors
+    /// The value lies outside the address's range.
+    pub fn feed_per_revolution(&self, address: &Address, number: Decimal, units: UnitSystem) -> Result<f64, Refused> {
+        let (increment, unit, range) = match units {
+            UnitSystem::Metric => (self.increments[0], MM, address.feed[2]),
+            UnitSystem::Inch => (self.increments[1], NM_PER_INCH, address.feed[3]),
+        };
+        feed(number, increment, unit, range)
+    }
+}
+
+/// A number in counts: with a point `unit` each, rounded to the increment; without one `increment` each.
+fn counts(number: Decimal, increment: i64, unit: i64, range: [f64; 2]) -> Result<i64, Refused> {
+    let increments = if number.point {
+        match unit / increment {
+            // The usual case first: thousandths of a mm or degree.
+            1000 => number.scaled(3),
+            10_000 => number.scaled(4),
+            per_unit => number.scaled(9).map(|value| round_half_away(i128::from(value) * i128::from(per_unit), 1_000_000_000)),
+        }
+    } else {
+        number.integer()
+    };
+    let value = increments.and_then(|value| value.checked_mul(increment));
+    let in_units = value.map_or(f64::INFINITY, |value| value as f64) / unit as f64;
+    match value {
+        Some(value) if in_units >= range[0] && in_units <= range[1] => Ok(value),
+        _ => {
+            let written = if number.point { number.to_f64() } else { number.to_f64() * (increment as f64 / unit as f64) };
+            Err((Condition::ValueOutOfRange, [written, range[0], range[1]]))
+        }
+    }
+}
+
+fn feed(number: Decimal, plain: i64, unit: i64, range: [f64; 2]) -> Result<f64, Refused> {
+    let nanometres = if number.point {
+        number.scaled(9).map(|value| i128::from(value) * i128::from(unit)).map(|value| value as f64 / 1e9)
+    } else {
+        number.integer().and_then(|value| value.checked_mul(plain)).map(|value| value as f64)
+    };
+    let value = nanometres.unwrap_or(f64::INFINITY);
+    let in_units = value / unit as f64;
+    if in_units < range[0] || in_units > range[1] {
+        return Err((Condition::ValueOutOfRange, [in_units, range[0], range[1]]));
+    }
+    Ok(value)
+}
+
+fn round_half_away(value: i128, divisor: i128) -> i64 {
+    let (quotient, rest) = (value / divisor, value % divisor);
+    let away = if rest.abs() * 2 >= divisor { rest.signum() } else { 0 };
+    i64::try_from(quotient + away).unwrap_or(i64::MAX)
+}
