@@ -54,6 +54,7 @@ pub struct Table<'d, 't> {
     range: Range<usize>,
     entries: Vec<Entry<'d, 't>>,
     known: Vec<&'static str>,
+    found: Vec<&'static str>,
 }
 
 impl<'d, 't> Table<'d, 't> {
@@ -62,7 +63,7 @@ impl<'d, 't> Table<'d, 't> {
             .into_iter()
             .map(|(key, value)| Entry { at: key.span(), key: key.into_inner().into_owned(), value, document })
             .collect();
-        Table { document, range, entries, known: Vec::new() }
+        Table { document, range, entries, known: Vec::new(), found: Vec::new() }
     }
 
     /// Where the table stands.
@@ -83,6 +84,7 @@ impl<'d, 't> Table<'d, 't> {
     fn take(&mut self, key: &'static str) -> Option<Entry<'d, 't>> {
         self.known.push(key);
         let index = self.entries.iter().position(|entry| entry.key == key)?;
+        self.found.push(key);
         Some(self.entries.remove(index))
     }
 
@@ -165,7 +167,7 @@ impl<'d, 't> Table<'d, 't> {
 
     /// Reports the key as missing if it is not there.
     pub fn require(&mut self, key: &'static str) {
-        if !self.entries.iter().any(|entry| entry.key == key) {
+        if !self.found.contains(&key) && !self.entries.iter().any(|entry| entry.key == key) {
             self.error_here(format!("`{key}` is missing"));
         }
     }

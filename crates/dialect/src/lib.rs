@@ -24,7 +24,10 @@ pub use control::{Control, GroupCodes, Group, GroupRule, Grouping, MOST_GROUPS, 
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use load::{ControlFiles, load_control};
 pub use meaning::{MMeaning, Meaning};
-pub use policy::Policies;
+pub use policy::{
+    ArcWithoutCentre, CycleL0Moves, CycleWithMotion, FeedModeChange, G92System, InchFeedInteger, M01OffOutput, MOver99,
+    OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, StrokeCheck,
+};
 pub use row::{Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow};
 
 #[cfg(test)]

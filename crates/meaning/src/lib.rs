@@ -1,1 +1,41 @@
-//! (to come)
+//! Blocks to operations: what the control makes of a program.
+//!
+//! Comes in: the text of programs, asked for piece by piece. Goes out: [`Operation`]s in the order in which the
+//! control executes them, pulled one at a time with [`Interpreter::next`]. Must never know: files, time, how fast
+//! axes move, what any picture looks like.
+//!
+//! What the control has *read* ([`State`] of the reader) and what it is *executing* (the [`State`] that each queued
+//! block carries) are two things: between them stands a queue as deep as the control's own buffer.
+
+mod arc;
+mod block;
+mod codes;
+mod command;
+mod coordinate;
+mod cycle;
+mod expand;
+mod facts;
+mod interpreter;
+mod jump;
+mod motion;
+mod operation;
+mod position_offset;
+mod program;
+mod pull;
+mod queue;
+mod reader;
+mod reference_point;
+mod state;
+mod supply;
+mod unknown;
+mod word;
+
+pub use command::{Command, Finish};
+pub use facts::{AxisFacts, CodeRules, MachineFacts, Memory, OffsetTable, Switches};
+pub use interpreter::Interpreter;
+pub use operation::{
+    Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side, StopKind,
+};
+pub use pull::{Answer, Barrier, BarrierKind, Pull, StaleBarrier};
+pub use state::State;
+pub use supply::WINDOW;

@@ -1,1 +1,12 @@
-//! (to come)
+//! Operations to geometry: where the tool goes between the points that the program names.
+//!
+//! Comes in: the interpreter's operations. Goes out: [`Shape`]s with exact lines and arcs, none of zero length, all
+//! other operations as they came. Must never know: how fast anything moves.
+
+mod arc;
+mod compensation;
+mod stage;
+
+pub use arc::Arc;
+pub use compensation::Compensation;
+pub use stage::{Path, Shape, Shaped};

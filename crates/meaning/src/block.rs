@@ -1,0 +1,509 @@
+//! The order of work inside one block: what acts before what.
+//!
+//! 1 block delete · 2 modal G codes, the last of each group · 3 F S T B D H and M · 4 the one-shot code, the cycle or
+//! the movement · 5 what ends the block. A refused block leaves everything as it was: the work is done on copies.
+
+use std::sync::Arc;
+
+use base::{AXES, Alarm, AxisSet, Condition, Point, UnitSystem};
+use dialect::{Control, Fitting, InchFeedInteger, Meaning, Written, check_combination};
+use syntax::Block;
+
+use crate::command::{Body, Command};
+use crate::facts::{MachineFacts, Memory, Switches};
+use crate::jump::{Calls, Found};
+use crate::operation::{Dwell, RapidKind, Side};
+use crate::position_offset::PositionOffset;
+use crate::state::{FeedWord, State};
+use crate::unknown::letter_bit;
+use crate::word::{MOST_G, Refusal, Words};
+
+/// What holds while programs run.
+pub(crate) struct Setting {
+    pub control: Arc<Control>,
+    pub fitting: Fitting,
+    pub facts: MachineFacts,
+    pub memory: Memory,
+    pub switches: Switches,
+    /// The axis on which the length offset acts.
+    pub length_axis: Option<usize>,
+    /// The letters of all axes, one bit each.
+    pub axis_letters: u32,
+    /// The letters of codes that go out.
+    pub code_letters: u32,
+}
+
+impl Setting {
+    /// Counts to mm and degrees.
+    pub fn to_mm(&self, counts: &Point) -> Point {
+        to_mm(counts, self.facts.axes.len())
+    }
+
+    /// #6005 D5: G92 presets the UNIVERSAL display.
+    pub fn presets_universal(&self) -> bool {
+        let bits = self.fitting.parameter_by_name(&self.control, "6005").unwrap_or(0.0) as u8;
+        bits & (1 << 5) != 0
+    }
+}
+
+/// Counts to mm and degrees on the first `axes` axes.
+pub(crate) fn to_mm(counts: &Point, axes: usize) -> Point {
+    let mut mm = [0.0; AXES];
+    for axis in 0..axes.min(AXES) {
+        mm[axis] = counts[axis] / 1e6;
+    }
+    mm
+}
+
+/// Where the program goes on after a block.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Flow {
+    /// With the next block.
+    Next,
+    /// In a subprogram, so many times.
+    Call(Found, u32),
+    /// Back in the caller, at the block after the call or at the found one.
+    Return(Option<Found>),
+    /// The main program from its head.
+    Again,
+    /// In the main program, at the found block.
+    Jump(Found),
+}
+
+/// One block while it is given its meaning.
+pub(crate) struct Reading<'r> {
+    pub setting: &'r Setting,
+    pub calls: &'r Calls,
+    pub words: Words<'r>,
+    /// Words before a block-delete sign whose switch is on.
+    pub word_count: usize,
+    /// The state before the block.
+    pub before: &'r State,
+    /// The state after the block, in the making.
+    pub next: State,
+    pub command: &'r mut Command,
+    /// Modal groups whose codes stand in the block, one bit each.
+    pub groups_written: u32,
+    pub units: UnitSystem,
+    pub absolute: bool,
+    pub exact_stop: bool,
+    pub rapid_kind: RapidKind,
+    pub position_offset: Option<PositionOffset>,
+    /// By how much the length offset has changed.
+    pub length_change: f64,
+    /// The block's one-shot code and the index of its word.
+    pub one_shot: Option<(Meaning, usize)>,
+    /// Axes whose place the block determines, if nothing it rests on is unknown.
+    pub now_known: AxisSet,
+}
+
+/// Gives a block its meaning: fills `command` and returns where the program goes on.
+///
+/// # Errors
+/// The control refuses the block, or a jump's target must be found first. Nothing has changed then.
+pub(crate) fn read_meaning(
+    setting: &Setting,
+    calls: &Calls,
+    state: &State,
+    block: &Block,
+    command: &mut Command,
+) -> Result<(Flow, State), Refusal> {
+    let (word_count, cut) = cut_by_block_delete(block, setting.switches.block_delete);
+    let words = Words::new(block, command.place, word_count);
+    check_faults(&words, block, cut)?;
+    let control = setting.control.as_ref();
+    let mut reading = Reading {
+        setting,
+        calls,
+        words,
+        word_count,
+        before: state,
+        next: *state,
+        command,
+        groups_written: 0,
+        units: UnitSystem::Metric,
+        absolute: true,
+        exact_stop: false,
+        rapid_kind: RapidKind::Checked,
+        position_offset: None,
+        length_change: 0.0,
+        one_shot: None,
+        now_known: AxisSet::NONE,
+    };
+    reading.check_letters()?;
+    reading.take_g_codes()?;
+    let roles = control.roles;
+    let groups = &reading.next.groups;
+    reading.units = match control.in_force(groups, roles.units) {
+        Some(Meaning::Inch) => UnitSystem::Inch,
+        _ => UnitSystem::Metric,
+    };
+    reading.absolute = control.in_force(groups, roles.distance) != Some(Meaning::Incremental);
+    reading.exact_stop = control.in_force(groups, roles.stop_mode) == Some(Meaning::ExactStopMode)
+        || reading.one_shot.is_some_and(|(code, _)| code == Meaning::ExactStop);
+    reading.command.side = match control.in_force(groups, roles.compensation) {
+        Some(Meaning::CompensationLeft) => Side::Left,
+        Some(Meaning::CompensationRight) => Side::Right,
+        _ => Side::Off,
+    };
+    if reading.command.side != Side::Off {
+        reading.note_plane();
+    }
+    reading.take_values()?;
+    let flow = reading.take_codes()?;
+    reading.act()?;
+    reading.finish();
+    Ok((flow, reading.next))
+}
+
+/// How many words a block-delete switch leaves, and from which character on the rest is ignored.
+fn cut_by_block_delete(block: &Block, switches: u16) -> (usize, u16) {
+    for skip in &block.skips {
+        if switches & (1 << (skip.switch - 1)) != 0 {
+            return (usize::from(skip.first_word), skip.extent.at);
+        }
+    }
+    (block.words.len(), u16::MAX)
+}
+
+/// Refuses what could not be read, as far as it is not skipped.
+fn check_faults(words: &Words, block: &Block, cut: u16) -> Result<(), Alarm> {
+    let start = block.start.offset;
+    if let Some(fault) = block.faults.iter().find(|f| f.extent.at < cut || f.condition == Condition::BlockTooLong) {
+        let alarm = Alarm::new(fault.condition, words.place, fault.extent.span(start));
+        return Err(alarm);
+    }
+    match block.statement {
+        Some(statement) if statement.extent.at < cut => {
+            Err(Alarm::new(Condition::NotYetBuilt, words.place, statement.extent.span(start)))
+        }
+        _ => Ok(()),
+    }
+}
+
+impl Reading<'_> {
+    /// Refuses letters that mean nothing on this control and machine, and variables.
+    fn check_letters(&mut self) -> Result<(), Alarm> {
+        for word in self.words.block.words.iter().take(self.word_count) {
+            if word.letter == b'G' || self.setting.axis_letters & letter_bit(word.letter) != 0 {
+                continue;
+            }
+            let known = self.setting.control.address(word.letter).is_some_and(|address| {
+                use dialect::AddressKind::{LinearAxis, MacroOnly, RotaryAxis};
+                !matches!(address.kind, LinearAxis | RotaryAxis | MacroOnly)
+            });
+            if !known {
+                return Err(self.words.alarm_at(Condition::AddressUnavailable, word));
+            }
+        }
+        if !self.setting.control.last_word_wins {
+            return self.refuse_repeated_words();
+        }
+        Ok(())
+    }
+
+    fn refuse_repeated_words(&self) -> Result<(), Alarm> {
+        let mut seen = 0u32;
+        for word in self.words.block.words.iter().take(self.word_count) {
+            if !matches!(word.letter, b'G' | b'M') && seen & letter_bit(word.letter) != 0 {
+                return Err(self.words.alarm_at(Condition::WordRepeated, word));
+            }
+            seen |= letter_bit(word.letter);
+        }
+        Ok(())
+    }
+
+    /// Modal codes come into force, one-shot codes are noted, their company is checked.
+    fn take_g_codes(&mut self) -> Result<(), Alarm> {
+        let control = self.setting.control.as_ref();
+        let roles = control.roles;
+        if !self.words.has(b'G') {
+            return Ok(());
+        }
+        let mut rows = [0u8; MOST_G];
+        let mut places = [0usize; MOST_G];
+        let mut count = 0;
+        for (index, word) in self.words.block.words.iter().take(self.word_count).enumerate() {
+            if word.letter != b'G' {
+                continue;
+            }
+            let row = self.g_row(word)?;
+            if count < MOST_G {
+                rows[count] = row;
+                places[count] = index;
+                count += 1;
+            }
+            let Some(code) = control.g_codes.get(usize::from(row)) else { continue };
+            match code.group {
+                Some(group) => {
+                    self.next.groups.0[usize::from(group)] = row;
+                    self.groups_written |= 1 << group;
+                    // Any movement code ends a canned cycle.
+                    if code.meaning.is_motion()
+                        && let Some(off) = control.row_of(Meaning::CycleOff)
+                    {
+                        self.next.groups.0[roles.cycle] = off;
+                    }
+                }
+                None => self.one_shot = Some((code.meaning, index)),
+            }
+        }
+        let motion = control.in_force(&self.next.groups, roles.motion);
+        let written = Written { rows: &rows[..count], motion };
+        check_combination(control, &self.setting.fitting, written).map_err(|(condition, index)| {
+            match self.words.block.words.get(places[index]) {
+                Some(word) => self.words.alarm_at(condition, word),
+                None => self.words.alarm(condition, b'G'),
+            }
+        })
+    }
+
+    fn g_row(&self, word: &syntax::Word) -> Result<u8, Alarm> {
+        let control = self.setting.control.as_ref();
+        let number = self.words.value(word)?;
+        let Some(address) = control.address(b'G') else {
+            return Err(self.words.alarm_at(Condition::AddressUnavailable, word));
+        };
+        let code = control
+            .integer(address, number)
+            .map_err(|(condition, values)| self.words.alarm_at(condition, word).with(values))?;
+        let values = [code as f64, 0.0, 0.0];
+        let Some(row) = control.g_row(code) else {
+            return Err(self.words.alarm_at(Condition::GUnknown, word).with(values));
+        };
+        let division = control.g_codes[usize::from(row)].division;
+        if !self.setting.fitting.has(division) {
+            let condition = match division {
+                dialect::Division::Sibling => Condition::GUnknown,
+                _ => Condition::GNotFitted,
+            };
+            return Err(self.words.alarm_at(condition, word).with(values));
+        }
+        Ok(row)
+    }
+
+    /// F, H, D, and N as a check of its range.
+    fn take_values(&mut self) -> Result<(), Alarm> {
+        if !self.words.has_any(letter_bit(b'F') | letter_bit(b'H') | letter_bit(b'D')) {
+            return Ok(());
+        }
+        let control = self.setting.control.clone();
+        if let (Some(number), Some(address)) = (self.words.number(b'F')?, control.address(b'F')) {
+            let per_revolution =
+                control.in_force(&self.next.groups, control.roles.feed_mode) == Some(Meaning::FeedPerRevolution);
+            let tenths = self.setting.fitting.policies.inch_feed_integer == InchFeedInteger::Tenth;
+            let nanometres = if per_revolution {
+                control.feed_per_revolution(address, number, self.units)
+            } else {
+                control.feed_per_minute(address, number, self.units, tenths)
+            };
+            let nanometres =
+                nanometres.map_err(|(condition, values)| self.words.alarm(condition, b'F').with(values))?;
+            self.next.feed = FeedWord { nanometres, per_revolution };
+        }
+        let highest = control.highest_offset;
+        for letter in [b'H', b'D'] {
+            let number = self.words.count(&control, letter)?;
+            let Some(number) = number else { continue };
+            if number > highest {
+                let values = [f64::from(number), f64::from(highest), 0.0];
+                return Err(self.words.alarm(Condition::OffsetNumber, letter).with(values));
+            }
+            if letter == b'H' { self.next.h = number } else { self.next.d = number }
+        }
+        Ok(())
+    }
+
+    /// The one-shot code, the cycle or the movement.
+    fn act(&mut self) -> Result<(), Alarm> {
+        self.refuse_unbuilt_modes()?;
+        self.length_change = self.change_length_offset()?;
+        let control = self.setting.control.clone();
+        let roles = control.roles;
+        let motion = control.in_force(&self.next.groups, roles.motion).unwrap_or(Meaning::Rapid);
+        self.enter_cycle()?;
+        let cycle = control.in_force(&self.next.groups, roles.cycle).filter(|code| code.is_cycle());
+        let Some((code, _)) = self.one_shot else {
+            return self.move_or_cycle(cycle, motion);
+        };
+        match code {
+            Meaning::ExactStop => self.move_or_cycle(cycle, motion),
+            Meaning::PositionExtend
+            | Meaning::PositionReduce
+            | Meaning::PositionDoubleExtend
+            | Meaning::PositionDoubleReduce => {
+                self.read_position_offset(code)?;
+                self.motion(motion)
+            }
+            Meaning::RapidWithoutCheck => {
+                self.rapid_kind = RapidKind::Unchecked;
+                self.motion(Meaning::Rapid)
+            }
+            Meaning::Dwell => self.dwell(),
+            Meaning::SetCoordinates => self.set_coordinates(),
+            Meaning::ReferenceReturn => self.reference_return(),
+            Meaning::MachineCoordinates => self.machine_coordinates(),
+            Meaning::BoltCircle | Meaning::LinePattern => self.pattern(code, cycle),
+            _ => Err(self.one_shot_alarm(Condition::NotYetBuilt)),
+        }
+    }
+
+    fn move_or_cycle(&mut self, cycle: Option<Meaning>, motion: Meaning) -> Result<(), Alarm> {
+        match cycle {
+            Some(cycle) => self.cycle_block(cycle),
+            None => self.motion(motion),
+        }
+    }
+
+    /// Modal codes whose meaning is not built yet are refused where they are written.
+    fn refuse_unbuilt_modes(&self) -> Result<(), Alarm> {
+        use Meaning::{ModalMacroCall, RotationOn, ScalingOn};
+        let control = self.setting.control.as_ref();
+        for (index, _) in control.groups.iter().enumerate() {
+            let unbuilt = match control.in_force(&self.next.groups, index) {
+                Some(ScalingOn | RotationOn | ModalMacroCall) => true,
+                Some(Meaning::StrokeCheckOn) => self.words.has_any(letter_bit(b'X') | letter_bit(b'I')),
+                Some(code) if code.is_cycle() => crate::cycle::steps_of(code).is_none(),
+                _ => false,
+            };
+            if unbuilt && self.groups_written & (1 << index) != 0 {
+                let row = self.next.groups.0[index];
+                let code = control.g_codes.get(usize::from(row)).map_or(0, |code| code.code);
+                return Err(self.g_alarm(Condition::NotYetBuilt, i64::from(code)));
+            }
+        }
+        Ok(())
+    }
+
+    /// An alarm at the word of a G code.
+    fn g_alarm(&self, condition: Condition, code: i64) -> Alarm {
+        let is_it = |word: &&syntax::Word| {
+            word.letter == b'G' && matches!(word.value, syntax::Value::Number(number) if number.integer() == Some(code))
+        };
+        match self.words.block.words.iter().find(is_it) {
+            Some(word) => self.words.alarm_at(condition, word).with([code as f64, 0.0, 0.0]),
+            None => self.words.alarm(condition, b'G').with([code as f64, 0.0, 0.0]),
+        }
+    }
+
+    /// An alarm at the block's one-shot code.
+    pub fn one_shot_alarm(&self, condition: Condition) -> Alarm {
+        match self.one_shot.and_then(|(_, index)| self.words.block.words.get(index)) {
+            Some(word) => self.words.alarm_at(condition, word),
+            None => self.words.alarm(condition, b'G'),
+        }
+    }
+
+    /// An alarm at the block's movement code, or at its first axis word.
+    pub fn motion_alarm(&self, condition: Condition) -> Alarm {
+        let words = &self.words.block.words;
+        let is_motion = |word: &&syntax::Word| {
+            word.letter == b'G'
+                && matches!(word.value, syntax::Value::Number(number) if number.integer().is_some_and(|code| {
+                    let row = self.setting.control.g_row(code);
+                    row.is_some_and(|row| {
+                        let meaning = self.setting.control.g_codes[usize::from(row)].meaning;
+                        meaning.is_motion() || meaning.is_cycle()
+                    })
+                }))
+        };
+        let is_axis = |word: &&syntax::Word| self.setting.axis_letters & letter_bit(word.letter) != 0;
+        let taken = &words[..self.word_count.min(words.len())];
+        match taken.iter().find(is_motion).or_else(|| taken.iter().find(is_axis)) {
+            Some(word) => self.words.alarm_at(condition, word),
+            None => Alarm::new(condition, self.words.place, self.words.place.block),
+        }
+    }
+
+    /// G04: P in milliseconds without a point, seconds with one; X likewise where that is fitted.
+    fn dwell(&mut self) -> Result<(), Alarm> {
+        let control = self.setting.control.clone();
+        let letter = if self.words.has(b'P') || !self.setting.fitting.options.dwell_x { b'P' } else { b'X' };
+        let seconds = match letter {
+            b'P' => self.words.seconds(&control, b'P')?,
+            _ => match (self.words.number(b'X')?, control.address(b'P')) {
+                (Some(number), Some(address)) => Some(
+                    control
+                        .dwell_seconds(address, number)
+                        .map_err(|(condition, values)| self.words.alarm(condition, b'X').with(values))?,
+                ),
+                _ => None,
+            },
+        };
+        self.command.body = Body::Dwell(Dwell::Seconds(seconds.unwrap_or(0.0)));
+        Ok(())
+    }
+
+    /// The axes that have a word in this block.
+    pub fn axes_named(&self) -> Result<AxisSet, Alarm> {
+        let mut named = AxisSet::NONE;
+        if !self.words.has_any(self.setting.axis_letters) {
+            return Ok(named);
+        }
+        for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
+            if self.words.has(facts.letter) {
+                named.add(axis);
+            }
+        }
+        Ok(named)
+    }
+
+    /// An axis' word in counts, and whether it was written with a minus sign.
+    pub fn axis_word(&self, axis: usize) -> Result<(f64, bool), Alarm> {
+        let Some(facts) = self.setting.facts.axes.get(axis) else { return Ok((0.0, false)) };
+        let Some(number) = self.words.number(facts.letter)? else { return Ok((0.0, false)) };
+        let control = self.setting.control.as_ref();
+        let Some(address) = control.address(facts.letter) else {
+            return Err(self.words.alarm(Condition::AddressUnavailable, facts.letter));
+        };
+        let value =
+            if facts.rotary { control.angle(address, number) } else { control.length(address, number, self.units) };
+        match value {
+            Ok(value) => Ok((value as f64, number.negative)),
+            Err((condition, values)) => Err(self.words.alarm(condition, facts.letter).with(values).on_axis(axis)),
+        }
+    }
+
+    /// Notes the two axes in which compensation offsets the path.
+    fn note_plane(&mut self) {
+        let mut axes = AxisSet::NONE;
+        for axis in self.plane().letters().iter().filter_map(|&letter| self.setting.facts.axis(letter)) {
+            axes.add(axis);
+        }
+        self.command.plane = axes;
+    }
+
+    /// Notes where the axis words stand and what is known now.
+    fn finish(&mut self) {
+        let mut absolute = AxisSet::NONE;
+        for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
+            let word = self.words.word(facts.letter);
+            self.command.axis_words[axis] = word.map_or_else(Default::default, |word| word.extent);
+            if word.is_some() && self.absolute {
+                absolute.add(axis);
+            }
+        }
+        self.command.absolute = absolute;
+        if !self.next.unknown.is_nothing() {
+            self.learn(absolute);
+        }
+    }
+
+    /// What the block wrote is known again, as far as what it rests on is.
+    fn learn(&mut self, absolute: AxisSet) {
+        let roles = self.setting.control.roles;
+        let mut unknown = self.next.unknown;
+        unknown.groups &= !self.groups_written;
+        unknown.words &= !self.words.letters();
+        let rests = [roles.distance, roles.work, roles.units, roles.cycle];
+        let named = self.now_known.or(absolute);
+        if rests.iter().any(|&group| unknown.group(group)) {
+            unknown.axes = unknown.axes.or(named);
+        } else {
+            let at_reference = matches!(self.one_shot, Some((Meaning::ReferenceReturn, _)));
+            let known = if at_reference { self.now_known } else { absolute };
+            unknown.axes = unknown.axes.without(known);
+        }
+        self.next.unknown = unknown;
+    }
+}

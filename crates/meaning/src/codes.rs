@@ -1,0 +1,125 @@
+//! S, T, B and M words: what goes out to the machine, and in which order.
+//!
+//! Codes that start with the block come first (S, T, B, M), then those that the machine file sends after the motion.
+//! Codes that the control works off inside (M90 to M99 of a YASNAC) are not sent.
+
+use base::{Alarm, Condition};
+use dialect::{MMeaning, MOver99};
+
+use crate::block::{Flow, Reading};
+use crate::command::{Finish, MOST_CODES};
+use crate::operation::{CodeLine, CodeOut, EndKind};
+use crate::word::Refusal;
+
+impl Reading<'_> {
+    /// Takes the block's codes; returns where the program goes on.
+    pub fn take_codes(&mut self) -> Result<Flow, Refusal> {
+        if !self.words.has_any(self.setting.code_letters) {
+            return Ok(Flow::Next);
+        }
+        let control = self.setting.control.clone();
+        let digits = self.setting.facts.codes.digits;
+        if let Some(speed) = self.words.count(&control, b'S')? {
+            self.next.spindle = speed;
+            self.send(CodeLine::S, b'S', speed, digits[1], false)?;
+        }
+        if let Some(tool) = self.words.count(&control, b'T')? {
+            self.next.tool = tool;
+            self.send(CodeLine::T, b'T', tool, digits[2], false)?;
+        }
+        if self.words.has(b'B') && self.setting.facts.axis(b'B').is_none() {
+            if !self.setting.fitting.options.b_function {
+                return Err(self.words.alarm(Condition::AddressUnavailable, b'B').into());
+            }
+            if let Some(index) = self.words.count(&control, b'B')? {
+                self.next.index = index;
+                self.send(CodeLine::B, b'B', index, digits[3], self.setting.facts.codes.b_after_motion)?;
+            }
+        }
+        if self.words.has(b'M') { self.take_m_codes(digits[0]) } else { Ok(Flow::Next) }
+    }
+
+    fn take_m_codes(&mut self, digits: u8) -> Result<Flow, Refusal> {
+        let control = self.setting.control.clone();
+        let mut flow = Flow::Next;
+        let mut taken = 0;
+        for word in self.words.block.words.iter().take(self.word_count).filter(|word| word.letter == b'M') {
+            taken += 1;
+            if taken > 1 && !self.setting.fitting.options.several_m_codes {
+                return Err(self.words.alarm_at(Condition::MSeveral, word).into());
+            }
+            let number = self.words.value(word)?;
+            let Some(address) = control.address(b'M') else {
+                return Err(self.words.alarm_at(Condition::AddressUnavailable, word).into());
+            };
+            let code = control
+                .integer(address, number)
+                .map_err(|(condition, values)| self.words.alarm_at(condition, word).with(values))?;
+            let code = u32::try_from(code).unwrap_or(u32::MAX);
+            let Some(row) = control.m_code(code) else {
+                self.send_builders_code(code, digits, word)?;
+                continue;
+            };
+            self.command.stops_reading |= row.stops_read_ahead;
+            let after = self.setting.facts.codes.m_after_motion.contains(&code);
+            match row.meaning {
+                MMeaning::ProgramStop => self.command.finish = Finish::ProgramStop,
+                MMeaning::OptionalStop => {
+                    if self.command.finish == Finish::Next {
+                        self.command.finish = Finish::OptionalStop;
+                    }
+                    self.command.optional_code = Some(self.command.code_count);
+                }
+                MMeaning::ProgramEnd => self.command.finish = Finish::End(EndKind::M02),
+                MMeaning::TapeEnd => self.command.finish = Finish::End(EndKind::M30),
+                MMeaning::SubprogramCall => flow = self.call(word)?,
+                MMeaning::SubprogramEnd => flow = self.subprogram_end()?,
+                _ => return Err(self.words.alarm_at(Condition::NotYetBuilt, word).into()),
+            }
+            if row.to_machine {
+                self.push_code(CodeLine::M, code, digits, after, word)?;
+            }
+        }
+        Ok(flow)
+    }
+
+    /// A code whose meaning is the machine builder's.
+    fn send_builders_code(&mut self, code: u32, digits: u8, word: &syntax::Word) -> Result<(), Alarm> {
+        let [machine, control, extended] = self.setting.control.m_ranges;
+        let within = |range: [u32; 2]| range[0] <= code && code <= range[1];
+        if within(control) || !(within(machine) || within(extended)) {
+            return Err(self.words.alarm_at(Condition::MUnknown, word).with([f64::from(code), 0.0, 0.0]));
+        }
+        let after = self.setting.facts.codes.m_after_motion.contains(&code);
+        let lines = if within(extended) && !self.setting.fitting.options.m_three_digits { 2 } else { digits };
+        let sent = if code >= 10u32.saturating_pow(u32::from(lines))
+            && self.setting.fitting.policies.m_over_99 == MOver99::DropHundreds
+        {
+            code % 100
+        } else {
+            code
+        };
+        self.push_code(CodeLine::M, sent, lines, after, word)
+    }
+
+    fn send(&mut self, line: CodeLine, letter: u8, code: u32, digits: u8, after: bool) -> Result<(), Alarm> {
+        match self.words.word(letter) {
+            Some(word) => self.push_code(line, code, digits, after, word),
+            None => Ok(()),
+        }
+    }
+
+    fn push_code(&mut self, line: CodeLine, code: u32, digits: u8, after: bool, word: &syntax::Word) -> Result<(), Alarm> {
+        if code >= 10u32.saturating_pow(u32::from(digits)) {
+            let values = [f64::from(code), f64::from(digits), 0.0];
+            return Err(self.words.alarm_at(Condition::CodeTooLargeForLines, word).with(values));
+        }
+        let count = usize::from(self.command.code_count);
+        if count >= MOST_CODES {
+            return Err(self.words.alarm_at(Condition::MSeveral, word));
+        }
+        self.command.codes[count] = CodeOut { line, code, digits, after_motion: after };
+        self.command.code_count += 1;
+        Ok(())
+    }
+}

@@ -1,0 +1,94 @@
+//! A block as the control has read it: everything decided, nothing done.
+
+use base::{AXES, Alarm, AxisSet, Place, Point};
+use dialect::GroupCodes;
+use syntax::Extent;
+
+use crate::cycle::Holes;
+use crate::operation::{CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
+use crate::state::State;
+
+/// Most codes that one block sends.
+pub(crate) const MOST_CODES: usize = 8;
+
+/// What the block does between its codes. Positions are counts in machine coordinates.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Body {
+    Nothing,
+    Rapid { to: Point, kind: RapidKind },
+    /// Two rapids, with a stop point between them.
+    Via { via: Point, to: Point },
+    Line { to: Point, feed: Feed },
+    Arc { to: Point, center: [f64; 2], axes: [u8; 2], plane: Plane, clockwise: bool, full_circle: bool, feed: Feed },
+    Dwell(Dwell),
+    Set(SetValue, Option<SetValue>),
+    Holes(Holes),
+    Alarm(Alarm),
+    /// The program begins.
+    Start(GroupCodes),
+}
+
+/// What follows the block.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Finish {
+    /// The next block.
+    Next,
+    /// M00.
+    ProgramStop,
+    /// M01: the switch is looked at when the block is executed.
+    OptionalStop,
+    /// The program's end.
+    End(EndKind),
+}
+
+impl Finish {
+    /// The stop that this finish is, if it is one.
+    pub(crate) const fn stop(self) -> Option<StopKind> {
+        match self {
+            Finish::ProgramStop => Some(StopKind::Program),
+            Finish::OptionalStop => Some(StopKind::Optional),
+            _ => None,
+        }
+    }
+}
+
+/// A block as read.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Command {
+    /// Counted from the program's start.
+    pub block: u64,
+    /// Where it stands.
+    pub place: Place,
+    /// The state after it.
+    pub after: State,
+    /// Where the axes are before it (counts, machine coordinates).
+    pub(crate) from: Point,
+    /// The codes it sends, in their order.
+    pub(crate) codes: [CodeOut; MOST_CODES],
+    pub(crate) code_count: u8,
+    /// Which of the codes is that of M01, if one is.
+    pub(crate) optional_code: Option<u8>,
+    pub(crate) body: Body,
+    /// What follows.
+    pub finish: Finish,
+    /// The next block must not be read before this one is done.
+    pub(crate) stops_reading: bool,
+    /// Tool radius compensation in force.
+    pub(crate) side: Side,
+    /// The two axes of the plane in force, while compensation is.
+    pub(crate) plane: AxisSet,
+    /// Where each axis' word stands in the block.
+    pub(crate) axis_words: [Extent; AXES],
+    /// Axes written absolutely.
+    pub absolute: AxisSet,
+}
+
+impl Command {
+    /// The span of an axis' word, or of the whole block if it has none.
+    pub fn axis_span(&self, axis: usize) -> base::Span {
+        match self.axis_words.get(axis) {
+            Some(extent) if extent.len > 0 => extent.span(self.place.block.start),
+            _ => self.place.block,
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Program coordinates to machine coordinates: work systems, G92, length offset.
+//!
+//! `machine = word + origin of the system in force + common shift (+ length offset on the length axis)`.
+
+use base::{AXES, Alarm, AxisSet, Condition};
+use dialect::Meaning;
+
+use crate::block::Reading;
+use crate::command::Body;
+use crate::operation::SetValue;
+
+/// The axis on which the tool length offset acts, whatever the plane.
+pub(crate) const LENGTH_AXIS: u8 = b'Z';
+
+impl Reading<'_> {
+    /// Machine coordinate of program zero on an axis, offsets included.
+    pub fn zero(&self, axis: usize) -> f64 {
+        let control = self.setting.control.as_ref();
+        let row = self.next.groups.0[control.roles.work];
+        let origin = match control.g_codes.get(usize::from(row)) {
+            Some(code) if code.meaning == Meaning::WorkSystem => {
+                let index = usize::from(code.number.saturating_sub(1));
+                self.setting.memory.work.get(index).map_or(0.0, |origin| origin[axis])
+            }
+            _ => self.next.base_origin[axis],
+        };
+        origin + self.next.common_shift[axis] + self.length_on(axis)
+    }
+
+    /// The length offset in force on an axis.
+    fn length_on(&self, axis: usize) -> f64 {
+        if Some(axis) == self.setting.length_axis { self.next.length } else { 0.0 }
+    }
+
+    /// Applies G43, G44, G49 and H: the new length offset takes the place of the old one.
+    ///
+    /// Returns by how much the length axis must move if its own word does not stand in the block.
+    pub fn change_length_offset(&mut self) -> Result<f64, Alarm> {
+        let control = self.setting.control.as_ref();
+        let written = self.groups_written & (1 << control.roles.length) != 0;
+        if !written && !self.words.has(b'H') {
+            return Ok(0.0);
+        }
+        let factor = control.in_force(&self.next.groups, control.roles.length).and_then(Meaning::length_offset);
+        let value = match factor {
+            Some(factor) if factor != 0.0 => {
+                let number = self.next.h;
+                let Some(value) = self.setting.memory.length(number) else {
+                    let highest = f64::from(control.highest_offset);
+                    return Err(self.words.alarm(Condition::OffsetNumber, b'H').with([f64::from(number), highest, 0.0]));
+                };
+                factor * value
+            }
+            _ => 0.0,
+        };
+        let change = value - self.next.length;
+        self.next.length = value;
+        Ok(change)
+    }
+
+    /// G92: the present position gets the given coordinates; nothing moves.
+    ///
+    /// Sets the base system and selects it (policy `g92-system = base`), or shifts all systems alike (`all`). With
+    /// #6005 D5 the UNIVERSAL display is preset too.
+    pub fn set_coordinates(&mut self) -> Result<(), Alarm> {
+        let control = self.setting.control.clone();
+        let all_systems = self.setting.fitting.policies.g92_system == dialect::G92System::All;
+        let axes = self.axes_named()?;
+        if axes.is_empty() {
+            return Ok(());
+        }
+        let mut shown = [0.0; AXES];
+        let mut origin = [0.0; AXES];
+        for axis in axes.iter() {
+            let (value, _) = self.axis_word(axis)?;
+            shown[axis] = value;
+            let machine = self.next.machine[axis];
+            if all_systems {
+                self.next.common_shift[axis] += machine - value - self.zero(axis);
+                origin[axis] = machine - value - self.length_on(axis);
+            } else {
+                origin[axis] = machine - self.length_on(axis) - value;
+                self.next.base_origin[axis] = origin[axis] - self.next.common_shift[axis];
+            }
+        }
+        if let (false, Some(base)) = (all_systems, control.base_system) {
+            self.next.groups.0[control.roles.work] = base;
+        }
+        let universal = self.setting.presets_universal().then(|| {
+            for axis in axes.iter() {
+                self.next.universal_zero[axis] = self.next.machine[axis] - shown[axis];
+            }
+            SetValue::Universal { axes, shown: self.setting.to_mm(&shown) }
+        });
+        let system = self.next.groups.0[control.roles.work];
+        let written = SetValue::WorkOrigin { system, axes, origin: self.setting.to_mm(&origin) };
+        self.command.body = Body::Set(written, universal);
+        self.next.displacement = clear(self.next.displacement, axes);
+        Ok(())
+    }
+}
+
+/// A point with these axes at zero.
+pub(crate) fn clear(mut point: base::Point, axes: AxisSet) -> base::Point {
+    for axis in axes.iter() {
+        point[axis] = 0.0;
+    }
+    point
+}

@@ -1,0 +1,183 @@
+//! Cycle blocks and hole patterns: from words to [`Holes`].
+
+use base::{AXES, Alarm, Condition};
+use dialect::{CycleL0Moves, Meaning};
+
+use super::pattern::{Places, sin_cos_deg};
+use super::{CycleData, Holes, needs_peck, steps_of, store};
+use crate::block::Reading;
+use crate::command::Body;
+use crate::operation::{Feed, RapidKind};
+use crate::unknown::letter_bit;
+
+impl Reading<'_> {
+    /// Program coordinate of the drilling axis where the block begins.
+    fn level_now(&self, axis: usize) -> f64 {
+        self.next.machine[axis] - self.zero(axis)
+    }
+
+    fn drilling_axis(&self) -> Result<usize, Alarm> {
+        self.setting.facts.axis(b'Z').ok_or_else(|| self.motion_alarm(Condition::AddressUnavailable))
+    }
+
+    /// Takes the initial level when the cycle mode is entered, and forgets the data when it is left.
+    pub fn enter_cycle(&mut self) -> Result<(), Alarm> {
+        let control = self.setting.control.clone();
+        let roles = control.roles;
+        let is_on = |row: u8| control.g_codes.get(usize::from(row)).is_some_and(|code| code.meaning.is_cycle());
+        let before = is_on(self.before.groups.0[roles.cycle]);
+        let now = is_on(self.next.groups.0[roles.cycle]);
+        let ended_here = self.groups_written & (1 << roles.cycle | 1 << roles.motion) != 0;
+        if !now && (before || ended_here) {
+            self.next.cycle = CycleData::default();
+        }
+        if now && !before {
+            let axis = self.drilling_axis()?;
+            // The offset may change in this very block; the level is that of the tool as it stands.
+            self.next.cycle.initial = self.level_now(axis) + self.length_change;
+        }
+        Ok(())
+    }
+
+    /// A block while a cycle is in force: it stores data, and drills if it names a place.
+    pub fn cycle_block(&mut self, cycle: Meaning) -> Result<(), Alarm> {
+        let control = self.setting.control.clone();
+        let (units, absolute) = (self.units, self.absolute);
+        store(&self.words, &control, units, absolute, &mut self.next.cycle)?;
+        let levels = letter_bit(b'R') | letter_bit(b'Z');
+        if !self.words.has_any(self.setting.axis_letters | levels) {
+            return Ok(());
+        }
+        let drilling = self.drilling_axis()?;
+        let count = self.words.count(&control, b'L')?.unwrap_or(1);
+        if count == 0 && self.setting.fitting.policies.cycle_l0_moves == CycleL0Moves::No {
+            return Ok(());
+        }
+        let mut first = self.next.machine;
+        let mut step = [0.0; AXES];
+        for axis in self.axes_named()?.iter().filter(|&axis| axis != drilling) {
+            first[axis] = self.target(axis)?;
+            if !absolute {
+                step[axis] = first[axis] - self.next.machine[axis];
+            }
+            self.now_known.add(axis);
+        }
+        let places = Places::Row { first, step, count: count.max(1) };
+        self.holes((count > 0).then_some(cycle), places)
+    }
+
+    /// G70 and G72: holes on a circle or a line, made with the cycle in force or only gone to.
+    pub fn pattern(&mut self, code: Meaning, cycle: Option<Meaning>) -> Result<(), Alarm> {
+        self.refuse_unbuilt_cycle(cycle)?;
+        let control = self.setting.control.clone();
+        let [Some(x), Some(y)] = [b'X', b'Y'].map(|letter| self.setting.facts.axis(letter)) else {
+            return Err(self.one_shot_alarm(Condition::AddressUnavailable));
+        };
+        if cycle.is_some() {
+            let (units, absolute) = (self.units, self.absolute);
+            // Here I and J belong to the pattern; R, Z, Q and P may still renew the cycle's data.
+            store(&self.words, &control, units, absolute, &mut self.next.cycle)?;
+        }
+        let count = self.words.integer(&control, b'L')?.unwrap_or(0);
+        let size = self.words.length(&control, b'I', self.units)?.unwrap_or(0.0);
+        let angle = self.words.angle(&control, b'J')?.unwrap_or(0.0) / 1e6;
+        let (mut level, mut named) = (self.next.machine, self.axes_named()?);
+        if let Some(drilling) = self.setting.facts.axis(b'Z') {
+            named = named.without(base::AxisSet::only(drilling));
+        }
+        for axis in named.iter() {
+            level[axis] = self.target(axis)?;
+            self.now_known.add(axis);
+        }
+        let wrong = |condition, letter| match self.words.has(letter) {
+            true => self.words.alarm(condition, letter),
+            false => self.one_shot_alarm(condition),
+        };
+        if count == 0 {
+            return Err(wrong(Condition::PatternCount, b'L'));
+        }
+        let places = if code == Meaning::BoltCircle {
+            if size <= 0.0 {
+                return Err(wrong(Condition::PatternRadius, b'I'));
+            }
+            Places::Circle {
+                level,
+                axes: [x as u8, y as u8],
+                center: [level[x], level[y]],
+                radius: size,
+                first_deg: angle,
+                step_deg: 360.0 / count as f64,
+                count: count.unsigned_abs() as u32,
+            }
+        } else {
+            let Ok(count) = u32::try_from(count) else { return Err(wrong(Condition::PatternCount, b'L')) };
+            let (sin, cos) = sin_cos_deg(angle);
+            let mut step = [0.0; AXES];
+            step[x] = size * cos;
+            step[y] = size * sin;
+            Places::Row { first: level, step, count }
+        };
+        self.holes(cycle, places)
+    }
+
+    fn refuse_unbuilt_cycle(&self, cycle: Option<Meaning>) -> Result<(), Alarm> {
+        match cycle {
+            Some(cycle) if steps_of(cycle).is_none() => Err(self.one_shot_alarm(Condition::NotYetBuilt)),
+            _ => Ok(()),
+        }
+    }
+
+    /// The block's holes, and where it leaves the axes.
+    fn holes(&mut self, cycle: Option<Meaning>, places: Places) -> Result<(), Alarm> {
+        let drilling = self.drilling_axis()?;
+        let mut end_point = places.at(places.count().saturating_sub(1));
+        end_point[drilling] = self.next.machine[drilling];
+        let approach = self.cycle_approach();
+        let mut holes = Holes {
+            cycle,
+            places,
+            approach,
+            axis: drilling as u8,
+            r: 0.0,
+            bottom: 0.0,
+            end: self.next.machine[drilling],
+            peck: 0.0,
+            clearance: 0.0,
+            dwell: 0.0,
+            feed: Feed { mm_per_min: 0.0, exact_stop: false, tapping: false },
+            rapid: RapidKind::Checked,
+        };
+        if let Some(cycle) = cycle {
+            self.levels(cycle, drilling, &mut holes)?;
+            end_point[drilling] = holes.end;
+            self.now_known.add(drilling);
+        }
+        self.next.machine = end_point;
+        self.command.body = Body::Holes(holes);
+        Ok(())
+    }
+
+    fn levels(&self, cycle: Meaning, drilling: usize, holes: &mut Holes) -> Result<(), Alarm> {
+        let control = self.setting.control.as_ref();
+        let data = self.next.cycle;
+        let (Some(r), Some(bottom)) = (data.r, data.bottom) else {
+            return Err(self.motion_alarm(Condition::CycleLevelMissing));
+        };
+        if needs_peck(cycle) && data.peck <= 0.0 {
+            return Err(match self.words.has(b'Q') {
+                true => self.words.alarm(Condition::CyclePeckMissing, b'Q'),
+                false => self.motion_alarm(Condition::CyclePeckMissing),
+            });
+        }
+        let zero = self.zero(drilling);
+        let to_r = control.in_force(&self.next.groups, control.roles.return_level) == Some(Meaning::ReturnR);
+        holes.r = r + zero;
+        holes.bottom = bottom + zero;
+        holes.end = if to_r { holes.r } else { data.initial + zero };
+        holes.peck = data.peck;
+        holes.clearance = self.setting.fitting.parameter(control.tolerances.cycle_clearance) * 1e6;
+        holes.dwell = data.dwell;
+        holes.feed = self.feed()?;
+        Ok(())
+    }
+}

@@ -1,0 +1,12 @@
+//! G82 spot facing: feed to the bottom, dwell, rapid out.
+
+use super::{Cursor, Holes, Step};
+
+pub(super) fn step(holes: &Holes, at: &mut Cursor) -> Step {
+    match at.advance() {
+        0 => Step::Feed(holes.bottom),
+        1 => Step::Dwell(holes.dwell),
+        2 => Step::Rapid(holes.end),
+        _ => Step::Done,
+    }
+}

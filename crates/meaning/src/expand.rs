@@ -1,0 +1,234 @@
+//! A command to its operations, one at a time: codes, motion piece by piece, codes after motion, the close.
+
+use base::{AXES, AxisSet, Point};
+
+use crate::block::to_mm;
+use crate::command::{Body, Command, Finish};
+use crate::cycle::{Cursor, Holes, Spindle, Step, steps_of};
+use crate::operation::{Act, ArcMove, Close, CodeLine, CodeOut, Dwell, Feed, Operation, RapidKind};
+
+/// Which part of the block is next.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Part {
+    CodesBefore,
+    Body,
+    CodesAfter,
+    Close,
+    Done,
+}
+
+/// How far the work on a command is.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Expansion {
+    part: Part,
+    index: u8,
+    phase: u8,
+    hole: u32,
+    cursor: Cursor,
+    position: Point,
+}
+
+/// What decides at execution, not when a block is read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surroundings {
+    pub axes: usize,
+    pub optional_stop: bool,
+    /// M01 goes out though its switch is off.
+    pub sends_m01: bool,
+    /// M codes for spindle forward and reverse.
+    pub spindle_codes: [u32; 2],
+    pub m_digits: u8,
+}
+
+impl Expansion {
+    pub fn new(command: &Command) -> Expansion {
+        Expansion {
+            part: Part::CodesBefore,
+            index: 0,
+            phase: 0,
+            hole: 0,
+            cursor: Cursor::default(),
+            position: command.from,
+        }
+    }
+
+    /// The next operation of the command; `None` when the block is done.
+    pub fn next(&mut self, command: &Command, around: &Surroundings) -> Option<Operation> {
+        let mut stop_point = false;
+        let act = loop {
+            match self.part {
+                Part::CodesBefore => match self.next_code(command, false, around) {
+                    Some(code) => break Act::Code(code),
+                    None => self.part = Part::Body,
+                },
+                Part::Body => match self.next_piece(command, around, &mut stop_point) {
+                    Some(act) => break act,
+                    None => {
+                        self.part = Part::CodesAfter;
+                        self.index = 0;
+                    }
+                },
+                Part::CodesAfter => match self.next_code(command, true, around) {
+                    Some(code) => break Act::Code(code),
+                    None => self.part = Part::Close,
+                },
+                Part::Close => {
+                    self.part = Part::Done;
+                    break Act::Close(close(command.finish, around.optional_stop));
+                }
+                Part::Done => return None,
+            }
+        };
+        let Command { block, place, side, plane, .. } = *command;
+        Some(Operation { block, place, act, side, plane, stop_point })
+    }
+
+    fn next_code(&mut self, command: &Command, after: bool, around: &Surroundings) -> Option<CodeOut> {
+        while self.index < command.code_count {
+            let index = self.index;
+            self.index += 1;
+            let code = command.codes[usize::from(index)];
+            let disregarded = command.optional_code == Some(index) && !around.optional_stop && !around.sends_m01;
+            if code.after_motion == after && !disregarded {
+                return Some(code);
+            }
+        }
+        None
+    }
+
+    fn next_piece(&mut self, command: &Command, around: &Surroundings, stop_point: &mut bool) -> Option<Act> {
+        let mm = |counts: &Point| to_mm(counts, around.axes);
+        if let Body::Holes(holes) = &command.body {
+            return self.next_in_hole(holes, around, stop_point);
+        }
+        let phase = self.phase;
+        self.phase += 1;
+        match (&command.body, phase) {
+            (Body::Rapid { to, kind }, 0) => Some(Act::Rapid { to: mm(to), kind: *kind }),
+            (Body::Line { to, feed }, 0) => Some(Act::Line { to: mm(to), feed: *feed }),
+            (Body::Arc { to, center, axes, plane, clockwise, full_circle, feed }, 0) => Some(Act::Arc {
+                arc: ArcMove {
+                    to: mm(to),
+                    plane: *plane,
+                    axes: *axes,
+                    center: [center[0] / 1e6, center[1] / 1e6],
+                    clockwise: *clockwise,
+                    full_circle: *full_circle,
+                },
+                feed: *feed,
+            }),
+            (Body::Via { via, .. }, 0) => {
+                *stop_point = true;
+                Some(Act::Rapid { to: mm(via), kind: RapidKind::Checked })
+            }
+            (Body::Via { to, .. }, 1) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),
+            (Body::Dwell(dwell), 0) => Some(Act::Dwell(*dwell)),
+            (Body::Set(value, _), 0) => Some(Act::Set(*value)),
+            (Body::Set(_, Some(value)), 1) => Some(Act::Set(*value)),
+            (Body::Alarm(alarm), 0) => Some(Act::Alarm(*alarm)),
+            (Body::Start(groups), 0) => Some(Act::Start(*groups)),
+            _ => None,
+        }
+    }
+
+    /// Phases of a hole: 0 the approach from one side, 1 the position, 2 the R level, 3 the cycle's own steps.
+    fn next_in_hole(&mut self, holes: &Holes, around: &Surroundings, stop_point: &mut bool) -> Option<Act> {
+        let axis = usize::from(holes.axis);
+        loop {
+            if self.hole >= holes.places.count() {
+                return None;
+            }
+            let phase = self.phase;
+            self.phase += 1;
+            match phase {
+                0 | 1 => {
+                    let mut place = holes.places.at(self.hole);
+                    place[axis] = self.position[axis];
+                    if phase == 0 {
+                        match approach(&self.position, &place, &holes.approach) {
+                            Some(from_side) => place = from_side,
+                            None => continue,
+                        }
+                    } else {
+                        *stop_point = true;
+                    }
+                    self.position = place;
+                    return Some(self.rapid(holes.rapid, around));
+                }
+                2 if holes.cycle.is_some() => {
+                    self.position[axis] = holes.r;
+                    *stop_point = true;
+                    return Some(self.rapid(holes.rapid, around));
+                }
+                _ => {
+                    let step = holes.cycle.and_then(steps_of).map_or(Step::Done, |step| step(holes, &mut self.cursor));
+                    if step == Step::Done {
+                        self.hole += 1;
+                        self.phase = 0;
+                        self.cursor = Cursor::default();
+                        continue;
+                    }
+                    *stop_point = self.is_last_step(holes);
+                    match self.step(step, holes, around) {
+                        Some(act) => return Some(act),
+                        None => continue,
+                    }
+                }
+            }
+        }
+    }
+
+    /// True if this hole is done and another follows: the block's own end is a stop point anyway.
+    fn is_last_step(&self, holes: &Holes) -> bool {
+        let mut ahead = self.cursor;
+        let next = holes.cycle.and_then(steps_of).map_or(Step::Done, |step| step(holes, &mut ahead));
+        next == Step::Done && self.hole + 1 < holes.places.count()
+    }
+
+    fn rapid(&self, kind: RapidKind, around: &Surroundings) -> Act {
+        Act::Rapid { to: to_mm(&self.position, around.axes), kind }
+    }
+
+    fn step(&mut self, step: Step, holes: &Holes, around: &Surroundings) -> Option<Act> {
+        let axis = usize::from(holes.axis);
+        match step {
+            Step::Rapid(level) => {
+                self.position[axis] = level;
+                Some(self.rapid(holes.rapid, around))
+            }
+            Step::Feed(level) | Step::Tap(level) => {
+                self.position[axis] = level;
+                let feed = Feed { tapping: matches!(step, Step::Tap(_)), ..holes.feed };
+                Some(Act::Line { to: to_mm(&self.position, around.axes), feed })
+            }
+            Step::Dwell(seconds) => (seconds > 0.0).then_some(Act::Dwell(Dwell::Seconds(seconds))),
+            Step::Spindle(spindle) => {
+                let code = around.spindle_codes[usize::from(spindle == Spindle::Reverse)];
+                Some(Act::Code(CodeOut { line: CodeLine::M, code, digits: around.m_digits, after_motion: true }))
+            }
+            Step::Done => None,
+        }
+    }
+}
+
+/// Where a move from one side goes first, if any of its axes has such a side.
+fn approach(from: &Point, to: &Point, distances: &Point) -> Option<Point> {
+    let mut moving = AxisSet::NONE;
+    let mut via = *to;
+    for axis in 0..AXES {
+        if distances[axis] != 0.0 && from[axis] != to[axis] {
+            via[axis] -= distances[axis];
+            moving.add(axis);
+        }
+    }
+    (!moving.is_empty()).then_some(via)
+}
+
+fn close(finish: Finish, optional_stop: bool) -> Close {
+    match finish {
+        Finish::OptionalStop if !optional_stop => Close::Next,
+        Finish::Next => Close::Next,
+        Finish::End(kind) => Close::End(kind),
+        Finish::ProgramStop | Finish::OptionalStop => finish.stop().map_or(Close::Next, Close::Stop),
+    }
+}

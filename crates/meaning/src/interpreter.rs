@@ -1,0 +1,337 @@
+//! The interpreter: the reader, the queue and the expansion as one thing that is pulled.
+
+use std::sync::Arc;
+
+use base::{AXES, AxisSet, Place, Point, ProgramId, SourceId};
+use dialect::{Control, Fitting, M01OffOutput};
+
+use crate::block::Setting;
+use crate::command::{Body, Command, Finish};
+use crate::expand::{Expansion, Surroundings};
+use crate::facts::{MachineFacts, Memory, Switches};
+use crate::operation::{Act, Close, EndKind, Operation};
+use crate::pull::{Answer, Barrier, BarrierKind, Pull, StaleBarrier};
+use crate::queue::Queue;
+use crate::reader::{Read, Reader, empty_command};
+use crate::state::State;
+use crate::supply::WINDOW;
+use crate::unknown::letter_bit;
+
+/// The interpreter of one control.
+///
+/// [`Interpreter::select`] a program, then pull with [`Interpreter::next`]; barriers are answered with
+/// [`Interpreter::resume`]. Reading runs ahead of execution by as many blocks as the control's buffer holds.
+pub struct Interpreter {
+    reader: Reader,
+    queue: Queue,
+    expansion: Option<Expansion>,
+    barrier: Option<Barrier>,
+    barriers: u64,
+    started: bool,
+    /// The close that waits for the answer whether the main program runs again.
+    runs_again: Option<bool>,
+    waits_for_start: bool,
+    /// The state in which the selected program begins.
+    start_state: State,
+}
+
+impl Interpreter {
+    /// A control at power-on, its axes standing at `machine` (mm, degrees; machine coordinates), the base work
+    /// system's origin at `base_origin` (counts).
+    pub fn new(
+        control: Arc<Control>,
+        fitting: Fitting,
+        facts: MachineFacts,
+        memory: Memory,
+        machine: &Point,
+        base_origin: Point,
+    ) -> Interpreter {
+        let groups = fitting.power_on(&control);
+        let state = State::power_on(groups, to_counts(machine), base_origin);
+        let axis_letters = facts.axes.iter().fold(0, |set, axis| set | letter_bit(axis.letter));
+        let code_letters = b"STM".iter().fold(0, |set, &letter| set | letter_bit(letter))
+            | if facts.axis(b'B').is_none() { letter_bit(b'B') } else { 0 };
+        let length_axis = facts.axis(crate::coordinate::LENGTH_AXIS);
+        let setting = Setting {
+            control,
+            fitting,
+            facts,
+            memory,
+            switches: Switches::default(),
+            length_axis,
+            axis_letters,
+            code_letters,
+        };
+        Interpreter {
+            reader: Reader::new(setting, state),
+            queue: Queue::new(),
+            expansion: None,
+            barrier: None,
+            barriers: 0,
+            started: false,
+            runs_again: None,
+            waits_for_start: false,
+            start_state: state,
+        }
+    }
+
+    /// Chooses the program to run, from its head. `name` is its name unless an O word gives it one.
+    pub fn select(&mut self, source: SourceId, name: &str) {
+        self.drop_queue();
+        self.reader.select(source, name);
+        self.started = false;
+    }
+
+    /// The main program from its head, everything else as it stands.
+    pub fn rewind(&mut self) {
+        self.drop_queue();
+        self.reader.rewind();
+        self.started = false;
+    }
+
+    /// Go on after an alarm to find later ones, with what the refused block names as unknown.
+    pub fn go_on_after_alarms(&mut self) {
+        self.reader.goes_on = true;
+    }
+
+    /// Jumps allowed without motion, dwell or stop before the alarm for an endless loop.
+    pub fn set_loop_limit(&mut self, limit: u64) {
+        self.reader.loop_limit = limit;
+    }
+
+    /// The switches; block delete acts on blocks that are read from now on.
+    pub fn switches_mut(&mut self) -> &mut Switches {
+        &mut self.reader.setting.switches
+    }
+
+    /// The control's memory; offsets act from the next block that calls for them.
+    pub fn memory_mut(&mut self) -> &mut Memory {
+        &mut self.reader.setting.memory
+    }
+
+    /// The control's memory.
+    pub fn memory(&self) -> &Memory {
+        &self.reader.setting.memory
+    }
+
+    /// Options, policies, parameters.
+    pub fn fitting_mut(&mut self) -> &mut Fitting {
+        &mut self.reader.setting.fitting
+    }
+
+    /// Options, policies, parameters.
+    pub fn fitting(&self) -> &Fitting {
+        &self.reader.setting.fitting
+    }
+
+    /// The control's tables.
+    pub fn control(&self) -> &Arc<Control> {
+        &self.reader.setting.control
+    }
+
+    /// A program's name.
+    pub fn program_name(&self, program: ProgramId) -> &str {
+        self.reader.names.name(program)
+    }
+
+    /// The main program and its source, if one is selected.
+    pub fn main_program(&self) -> Option<(ProgramId, SourceId)> {
+        self.reader.main_program()
+    }
+
+    /// What the control has read: the state after the last block read.
+    pub fn read_state(&self) -> &State {
+        &self.reader.state
+    }
+
+    /// What the control is executing: the block at the front of the queue.
+    pub fn executing(&self) -> Option<&Command> {
+        self.queue.front()
+    }
+
+    /// The state of the block being executed; what was read last if none is.
+    pub fn executing_state(&self) -> &State {
+        self.queue.front().map_or(&self.reader.state, |command| &command.after)
+    }
+
+    /// A later stage refused the block: checking on, these axes are unknown.
+    pub fn forget_axes(&mut self, axes: AxisSet) {
+        self.reader.forget_axes(axes);
+    }
+
+    /// The next operation.
+    pub fn next(&mut self) -> Pull<Operation> {
+        if let Some(barrier) = self.barrier {
+            return Pull::Barrier(barrier);
+        }
+        loop {
+            if self.waits_for_start {
+                self.waits_for_start = false;
+                return self.ask(BarrierKind::CycleStart);
+            }
+            if let Some(operation) = self.next_of_front() {
+                return operation;
+            }
+            if let Some(barrier) = self.read_ahead() {
+                return barrier;
+            }
+            match self.queue.front() {
+                Some(command) => self.expansion = Some(Expansion::new(command)),
+                None => return Pull::End,
+            }
+        }
+    }
+
+    /// The next operation of the block being executed; the block leaves the queue when it is done.
+    fn next_of_front(&mut self) -> Option<Pull<Operation>> {
+        let mut expansion = self.expansion?;
+        let command = self.queue.front()?;
+        let asks = command.finish == Finish::End(EndKind::M99);
+        let before = expansion;
+        let Some(mut operation) = expansion.next(command, &self.surroundings()) else {
+            self.expansion = None;
+            self.queue.pop();
+            return None;
+        };
+        if let Act::Close(close) = operation.act {
+            if asks {
+                match self.runs_again.take() {
+                    // The close comes again when the question is answered.
+                    None => {
+                        self.expansion = Some(before);
+                        return Some(self.ask(BarrierKind::RunAgain));
+                    }
+                    Some(true) => operation.act = Act::Close(Close::Next),
+                    Some(false) => self.reader.end(),
+                }
+            }
+            self.waits_for_start = matches!(close, Close::Stop(_));
+            if matches!(operation.act, Act::Close(Close::End(_))) {
+                self.reader.end();
+            }
+        }
+        self.expansion = Some(expansion);
+        Some(Pull::Item(operation))
+    }
+
+    fn surroundings(&self) -> Surroundings {
+        let setting = &self.reader.setting;
+        Surroundings {
+            axes: setting.facts.axes.len(),
+            optional_stop: setting.switches.optional_stop,
+            sends_m01: setting.fitting.policies.m01_off_output == M01OffOutput::Code,
+            spindle_codes: [setting.control.cycle_codes[0], setting.control.cycle_codes[1]],
+            m_digits: setting.facts.codes.digits[0],
+        }
+    }
+
+    /// Fills the queue to the control's depth: the block to execute and those read ahead of it.
+    fn read_ahead(&mut self) -> Option<Pull<Operation>> {
+        let depth = self.reader.setting.control.read_ahead[0] + 1;
+        while self.queue.len() < depth && !self.queue.back().is_some_and(|command| command.stops_reading) {
+            match self.reader.read() {
+                Read::Command => {
+                    if !self.started {
+                        self.start();
+                    }
+                    self.queue.push(&self.reader.command);
+                }
+                Read::NeedBytes { source, offset } => {
+                    return Some(self.ask(BarrierKind::NeedBytes { source, offset, len: WINDOW }));
+                }
+                Read::NeedProgram { number } => return Some(self.ask(BarrierKind::NeedProgram { number })),
+                Read::Ended => break,
+            }
+        }
+        None
+    }
+
+    /// The first block has been read, so the program's name is known: the program begins.
+    fn start(&mut self) {
+        self.started = true;
+        let mut command = empty_command(&self.start_state);
+        command.place =
+            Place { program: self.reader.command.place.program, source: self.reader.command.place.source, ..Place::default() };
+        command.body = Body::Start(self.start_state.groups);
+        self.queue.push(&command);
+    }
+
+    fn ask(&mut self, kind: BarrierKind) -> Pull<Operation> {
+        self.barriers += 1;
+        let barrier = Barrier { id: self.barriers, kind };
+        self.barrier = Some(barrier);
+        Pull::Barrier(barrier)
+    }
+
+    /// Answers the open barrier.
+    ///
+    /// # Errors
+    /// `id` is not that of the open barrier; nothing changes then.
+    pub fn resume(&mut self, id: u64, answer: Answer) -> Result<(), StaleBarrier> {
+        let barrier = self.barrier.filter(|barrier| barrier.id == id).ok_or(StaleBarrier)?;
+        self.barrier = None;
+        match (barrier.kind, answer) {
+            (BarrierKind::NeedBytes { source, offset, .. }, Answer::Bytes(bytes, last)) => {
+                // Nothing and not the end would be asked for again for ever.
+                self.reader.supply.fill(source, offset, bytes, last || bytes.is_empty());
+            }
+            (BarrierKind::NeedBytes { source, offset, .. }, _) => self.reader.supply.fill(source, offset, &[], true),
+            (BarrierKind::NeedProgram { .. }, Answer::Program(source)) => self.reader.brought(Some(source)),
+            (BarrierKind::NeedProgram { .. }, _) => self.reader.brought(None),
+            (BarrierKind::RunAgain, answer) => self.runs_again = Some(answer == Answer::Continue),
+            (BarrierKind::CycleStart, Answer::Stop) => self.reader.end(),
+            (BarrierKind::CycleStart, _) => {}
+        }
+        Ok(())
+    }
+
+    /// RESET: the queue is dropped, the executing block's state restored, the reset table applied.
+    ///
+    /// `machine` is where the axes really stand (mm, degrees). The program pointer goes to the head.
+    pub fn reset(&mut self, machine: &Point) {
+        self.restore(machine);
+        let setting = &self.reader.setting;
+        let state = &mut self.reader.state;
+        let cycle = setting.control.roles.cycle;
+        let before = state.groups.0[cycle];
+        state.groups = setting.fitting.reset(&setting.control, state.groups);
+        if state.groups.0[cycle] != before {
+            state.cycle = crate::cycle::CycleData::default();
+        }
+        self.start_state = self.reader.state;
+    }
+
+    /// Drops what was read and not executed: the state is that of the executing block, the axes stand at `machine`.
+    pub fn restore(&mut self, machine: &Point) {
+        let state = *self.executing_state();
+        self.drop_queue();
+        self.reader.state = state;
+        self.reader.stand_at(to_counts(machine));
+        self.reader.end();
+        self.start_state = self.reader.state;
+    }
+
+    fn drop_queue(&mut self) {
+        self.queue.clear();
+        self.expansion = None;
+        self.barrier = None;
+        self.runs_again = None;
+        self.waits_for_start = false;
+        self.start_state = self.reader.state;
+    }
+
+    /// Texts have changed: everything remembered of them is forgotten.
+    pub fn forget_texts(&mut self) {
+        self.reader.supply.clear();
+        self.reader.calls.forget();
+    }
+}
+
+/// Millimetres and degrees to counts, to the nearest whole one.
+fn to_counts(mm: &Point) -> Point {
+    let mut counts = [0.0; AXES];
+    for axis in 0..AXES {
+        counts[axis] = (mm[axis] * 1e6).round();
+    }
+    counts
+}

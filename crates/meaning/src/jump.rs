@@ -1,0 +1,266 @@
+//! Where jumps lead: programs by number, blocks by sequence number, found by scanning and remembered a while.
+//!
+//! A text is not held in memory, so a target is looked for by reading: in the text that calls, in the main program's
+//! text, then outside (a barrier). A sequence number is looked for within one program, from the block after the jump to
+//! its end, then from its head; the first match wins. What was found is kept, so the block that jumps is read again.
+
+use base::{Condition, ProgramId, SourceId};
+use syntax::{Block, Cursor, Grammar, Outcome, Value, Word, read_block};
+
+use crate::block::{Flow, Reading};
+use crate::program::{Frame, Names};
+use crate::supply::Supply;
+use crate::word::Refusal;
+
+/// What a jump looks for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Target {
+    /// A program, called from a source.
+    Program { number: u32, from: SourceId },
+    /// A block of the program that begins at `head`, looked for from `from` on.
+    Sequence { source: SourceId, head: Cursor, from: Cursor, number: u32 },
+}
+
+/// Where a target is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Found {
+    pub source: SourceId,
+    pub program: ProgramId,
+    pub cursor: Cursor,
+}
+
+/// Targets remembered, the oldest forgotten first.
+const REMEMBERED: usize = 64;
+
+/// The levels of calls, and what is known of jumps.
+pub(crate) struct Calls {
+    pub frames: Vec<Frame>,
+    pub levels: usize,
+    known: Vec<(Target, Option<Found>)>,
+    oldest: usize,
+}
+
+impl Calls {
+    pub fn new(levels: usize) -> Calls {
+        Calls { frames: Vec::with_capacity(levels + 1), levels, known: Vec::with_capacity(REMEMBERED), oldest: 0 }
+    }
+
+    /// The answer to a target, if it has been looked for; the inner `None` is "nowhere".
+    pub fn lookup(&self, target: &Target) -> Option<Option<Found>> {
+        self.known.iter().find(|(known, _)| known == target).map(|&(_, found)| found)
+    }
+
+    pub fn remember(&mut self, target: Target, found: Option<Found>) {
+        if self.known.len() < REMEMBERED {
+            self.known.push((target, found));
+        } else {
+            self.known[self.oldest] = (target, found);
+            self.oldest = (self.oldest + 1) % REMEMBERED;
+        }
+    }
+
+    pub fn forget(&mut self) {
+        self.known.clear();
+        self.oldest = 0;
+    }
+
+    pub fn top(&self) -> Option<&Frame> {
+        self.frames.last()
+    }
+}
+
+impl Reading<'_> {
+    /// M98: the program P, L times.
+    pub fn call(&mut self, word: &Word) -> Result<Flow, Refusal> {
+        let control = self.setting.control.clone();
+        if self.words.has(b'Q') {
+            return Err(self.words.alarm(Condition::NotYetBuilt, b'Q').into());
+        }
+        let Some(number) = self.words.count(&control, b'P')?.filter(|&number| number > 0) else {
+            return Err(self.words.alarm_at(Condition::CallTargetMissing, word).into());
+        };
+        let repeats = self.words.count(&control, b'L')?.unwrap_or(1);
+        if repeats == 0 {
+            return Err(self.words.alarm(Condition::ValueOutOfRange, b'L').with([0.0, 1.0, 9999.0]).into());
+        }
+        if self.calls.frames.len() > self.calls.levels {
+            let levels = self.calls.levels as f64;
+            return Err(self.words.alarm(Condition::NestingTooDeep, b'P').with([levels, 0.0, 0.0]).into());
+        }
+        let target = Target::Program { number, from: self.words.place.source };
+        match self.calls.lookup(&target) {
+            None => Err(Refusal::Locate(target)),
+            Some(None) => {
+                let values = [f64::from(number), 0.0, 0.0];
+                Err(self.words.alarm(Condition::ProgramNotFound, b'P').with(values).into())
+            }
+            Some(Some(found)) => Ok(Flow::Call(found, repeats)),
+        }
+    }
+
+    /// M99: back to the caller, after the call or at its block P; in the main program to its head or its block P.
+    pub fn subprogram_end(&mut self) -> Result<Flow, Refusal> {
+        let control = self.setting.control.clone();
+        let levels = self.calls.frames.len();
+        let number = self.words.count(&control, b'P')?;
+        let goal = self.calls.frames.get(levels.saturating_sub(2).min(levels.saturating_sub(1)));
+        let (Some(number), Some(goal)) = (number, goal) else {
+            return Ok(if levels > 1 { Flow::Return(None) } else { Flow::Again });
+        };
+        let from = if levels > 1 { goal.cursor } else { self.words.block.next };
+        let target = Target::Sequence { source: goal.source, head: goal.head, from, number };
+        match self.calls.lookup(&target) {
+            None => Err(Refusal::Locate(target)),
+            Some(None) => {
+                let values = [f64::from(number), 0.0, 0.0];
+                Err(self.words.alarm(Condition::SequenceNotFound, b'P').with(values).into())
+            }
+            Some(Some(found)) if levels > 1 => Ok(Flow::Return(Some(found))),
+            Some(Some(found)) => Ok(Flow::Jump(found)),
+        }
+    }
+}
+
+/// Where a search is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Stage {
+    /// In this source, from the cursor on.
+    Scan(SourceId),
+    /// The program is asked for.
+    Asked,
+    /// In the source that was brought; if the number does not stand in it, its head is the program.
+    Brought(SourceId),
+}
+
+/// A search in progress.
+pub(crate) struct Search {
+    target: Target,
+    main: SourceId,
+    stage: Stage,
+    cursor: Cursor,
+    /// A block that is not blank has been passed since the search's start.
+    passed: bool,
+    /// A sequence search that has gone on from the program's head.
+    from_head: bool,
+    program: ProgramId,
+}
+
+/// What a search needs or has come to.
+pub(crate) enum Progress {
+    NeedBytes { source: SourceId, offset: u64 },
+    NeedProgram { number: u32 },
+    Done(Option<Found>),
+}
+
+impl Search {
+    /// Begins a search; `main` is the main program's source, `program` the program a sequence number belongs to.
+    pub fn new(target: Target, main: SourceId, program: ProgramId) -> Search {
+        let (stage, cursor) = match target {
+            Target::Program { from, .. } => (Stage::Scan(from), Cursor::HEAD),
+            Target::Sequence { source, from, .. } => (Stage::Scan(source), from),
+        };
+        Search { target, main, stage, cursor, passed: false, from_head: false, program }
+    }
+
+    pub fn target(&self) -> Target {
+        self.target
+    }
+
+    /// The program was brought, or there is none.
+    pub fn brought(&mut self, source: Option<SourceId>) -> bool {
+        match source {
+            Some(source) => {
+                self.stage = Stage::Brought(source);
+                self.cursor = Cursor::HEAD;
+                self.passed = false;
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// Goes on as far as the text at hand allows.
+    pub fn advance(&mut self, supply: &mut Supply, grammar: &Grammar, names: &mut Names, block: &mut Block) -> Progress {
+        loop {
+            let source = match (self.stage, self.target) {
+                (Stage::Asked, Target::Program { number, .. }) => return Progress::NeedProgram { number },
+                (Stage::Asked, Target::Sequence { .. }) => return Progress::Done(None),
+                (Stage::Scan(source) | Stage::Brought(source), _) => source,
+            };
+            let view = supply.view(source, self.cursor.offset);
+            let last = view.last;
+            let ended = match read_block(view.characters, last, self.cursor, grammar, block) {
+                Outcome::More => return Progress::NeedBytes { source, offset: self.cursor.offset },
+                Outcome::End => true,
+                Outcome::Block => {
+                    let tape_end = block.rewind && self.passed;
+                    self.passed |= !block.is_empty() && !block.rewind;
+                    if let Some(found) = self.matches(source, names, block) {
+                        return Progress::Done(Some(found));
+                    }
+                    let here = self.cursor;
+                    self.cursor = block.next;
+                    tape_end || self.section_ends(here, block)
+                }
+            };
+            if ended && let Some(done) = self.end_of_text(source, names) {
+                return done;
+            }
+        }
+    }
+
+    fn matches(&self, source: SourceId, names: &mut Names, block: &Block) -> Option<Found> {
+        let first = block.words.iter().find(|word| word.letter == b'O' || word.letter == b'N')?;
+        let number_of = |word: &Word| match word.value {
+            Value::Number(number) => number.integer(),
+            _ => None,
+        };
+        match self.target {
+            Target::Program { number, .. } => {
+                let is_it = first.letter == b'O' && number_of(first) == Some(i64::from(number));
+                is_it.then(|| Found { source, program: names.numbered(number), cursor: block.start })
+            }
+            Target::Sequence { number, .. } => {
+                let is_it = first.letter == b'N' && number_of(first) == Some(i64::from(number));
+                is_it.then_some(Found { source, program: self.program, cursor: block.start })
+            }
+        }
+    }
+
+    /// True if a sequence search has left its part of the program.
+    fn section_ends(&self, here: Cursor, block: &Block) -> bool {
+        let Target::Sequence { head, from, .. } = self.target else { return false };
+        if self.from_head {
+            return here.offset >= from.offset;
+        }
+        let next_program = block.words.first().is_some_and(|word| word.letter == b'O');
+        next_program && block.start.offset > head.offset.max(from.offset.saturating_sub(1))
+    }
+
+    /// The scan has come to an end without a match: what next.
+    fn end_of_text(&mut self, source: SourceId, names: &mut Names) -> Option<Progress> {
+        match (self.target, self.stage) {
+            (Target::Sequence { head, .. }, _) => {
+                if self.from_head {
+                    return Some(Progress::Done(None));
+                }
+                self.from_head = true;
+                self.cursor = head;
+                self.passed = false;
+            }
+            (Target::Program { .. }, Stage::Scan(scanned)) if scanned != self.main => {
+                self.stage = Stage::Scan(self.main);
+                self.cursor = Cursor::HEAD;
+                self.passed = false;
+            }
+            (Target::Program { .. }, Stage::Scan(_)) => self.stage = Stage::Asked,
+            (Target::Program { number, .. }, Stage::Brought(_)) => {
+                let program = names.numbered(number);
+                return Some(Progress::Done(Some(Found { source, program, cursor: Cursor::HEAD })));
+            }
+            (Target::Program { .. }, Stage::Asked) => return Some(Progress::Done(None)),
+        }
+        None
+    }
+}
+

@@ -1,0 +1,43 @@
+//! Programs by name, and the levels of calls.
+
+use base::{ProgramId, SourceId};
+use syntax::Cursor;
+
+/// The names of programs, each kept once.
+#[derive(Default)]
+pub(crate) struct Names {
+    names: Vec<String>,
+}
+
+impl Names {
+    pub fn intern(&mut self, name: &str) -> ProgramId {
+        let index = self.names.iter().position(|known| known == name).unwrap_or_else(|| {
+            self.names.push(name.to_owned());
+            self.names.len() - 1
+        });
+        ProgramId(index as u32)
+    }
+
+    pub fn numbered(&mut self, number: u32) -> ProgramId {
+        self.intern(&format!("O{number}"))
+    }
+
+    pub fn name(&self, program: ProgramId) -> &str {
+        self.names.get(program.0 as usize).map_or("", String::as_str)
+    }
+}
+
+/// One program in execution: the main program or a subprogram on its level.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Frame {
+    pub program: ProgramId,
+    pub source: SourceId,
+    /// Where the program begins in its text.
+    pub head: Cursor,
+    /// The next block to read.
+    pub cursor: Cursor,
+    /// Its first block has been read: from here on an O word belongs to the next program.
+    pub begun: bool,
+    /// How many more times it runs after this one.
+    pub repeats: u32,
+}

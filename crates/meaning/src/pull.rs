@@ -1,0 +1,73 @@
+//! The way in which every stage hands on what it made, and asks for what it lacks.
+
+use base::SourceId;
+
+/// What a stage has next.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Pull<T> {
+    /// A piece of work.
+    Item(T),
+    /// Nothing until this is answered.
+    Barrier(Barrier),
+    /// Nothing more.
+    End,
+}
+
+/// A question that must be answered before anything more can come.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Barrier {
+    /// Goes back with the answer; answers to earlier questions are refused.
+    pub id: u64,
+    /// What is asked.
+    pub kind: BarrierKind,
+}
+
+/// What an interpreter can ask for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum BarrierKind {
+    /// The bytes of a source from an offset on, at most so many.
+    NeedBytes {
+        /// Which text.
+        source: SourceId,
+        /// From which byte.
+        offset: u64,
+        /// At most so many bytes.
+        len: usize,
+    },
+    /// The program of this number, from outside the texts that are open.
+    NeedProgram {
+        /// Its number.
+        number: u32,
+    },
+    /// CYCLE START after a program stop.
+    CycleStart,
+    /// Whether the main program, which asks to be run again, shall be.
+    RunAgain,
+}
+
+/// The answer to a barrier.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Answer<'a> {
+    /// Bytes of a source; `last` says that it ends with them.
+    Bytes(&'a [u8], bool),
+    /// The source in which the program stands.
+    Program(SourceId),
+    /// There is no such program or text.
+    NotFound,
+    /// Go on.
+    Continue,
+    /// Do not go on.
+    Stop,
+}
+
+/// An answer to a question that is no longer open.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct StaleBarrier;
+
+impl std::fmt::Display for StaleBarrier {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("the question this answers is no longer open")
+    }
+}
+
+impl std::error::Error for StaleBarrier {}

@@ -1,0 +1,77 @@
+//! The state of a program: every modal value and where its last block ends.
+//!
+//! Small and `Copy`: each block in the queue owns the state after it, so that RESET can go back to it.
+
+use base::{AXES, Point};
+use dialect::GroupCodes;
+
+use crate::cycle::CycleData;
+use crate::unknown::Unknown;
+
+/// The feed as last programmed.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct FeedWord {
+    /// Nanometres per minute or per revolution; 0 if none was programmed.
+    pub nanometres: f64,
+    /// True if it was programmed per revolution.
+    pub per_revolution: bool,
+}
+
+/// Everything that a block leaves to the next one. Lengths are counts: nanometres or microdegrees in an `f64`, exact
+/// up to 9 000 km, with a fraction only where the control derives a point itself.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct State {
+    /// The code in force in every group.
+    pub groups: GroupCodes,
+    /// F.
+    pub feed: FeedWord,
+    /// S.
+    pub spindle: u32,
+    /// T.
+    pub tool: u32,
+    /// B.
+    pub index: u32,
+    /// H.
+    pub h: u32,
+    /// D.
+    pub d: u32,
+    /// Where the block ends: machine coordinates, every offset applied.
+    pub machine: Point,
+    /// Origin of the base work system.
+    pub base_origin: Point,
+    /// Shift of all work systems together.
+    pub common_shift: Point,
+    /// Machine coordinate at which the UNIVERSAL display shows zero.
+    pub universal_zero: Point,
+    /// Length offset applied to the length axis.
+    pub length: f64,
+    /// Displacement left by tool position offsets.
+    pub displacement: Point,
+    /// Data of the canned cycle.
+    pub cycle: CycleData,
+    /// What cannot be known after a refused block.
+    pub unknown: Unknown,
+}
+
+impl State {
+    /// The state at power-on with the machine standing at `machine`.
+    pub fn power_on(groups: GroupCodes, machine: Point, base_origin: Point) -> State {
+        State {
+            groups,
+            feed: FeedWord::default(),
+            spindle: 0,
+            tool: 0,
+            index: 0,
+            h: 0,
+            d: 0,
+            machine,
+            base_origin,
+            common_shift: [0.0; AXES],
+            universal_zero: [0.0; AXES],
+            length: 0.0,
+            displacement: [0.0; AXES],
+            cycle: CycleData::default(),
+            unknown: Unknown::default(),
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! What cannot be known after a refused block, so that checking on raises only alarms it can stand behind.
+//!
+//! A refused block has no effect. What it named (axes, groups, F, …) is unknown from then on until it is written
+//! again: an axis by an absolute word, a group by one of its codes. An alarm that depends on an unknown is not raised.
+
+use base::{AxisSet, Condition};
+use dialect::Roles;
+
+/// Sets of what is unknown.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Unknown {
+    /// Axes whose position is unknown.
+    pub axes: AxisSet,
+    /// Modal groups whose code is unknown, one bit each.
+    pub groups: u32,
+    /// Words whose value is unknown, one bit a letter.
+    pub words: u32,
+}
+
+impl Unknown {
+    /// True if everything is known.
+    pub const fn is_nothing(self) -> bool {
+        self.axes.is_empty() && self.groups == 0 && self.words == 0
+    }
+
+    /// True if the code of this group is unknown.
+    pub const fn group(self, group: usize) -> bool {
+        self.groups & (1 << group) != 0
+    }
+
+    /// True if the value of this letter is unknown.
+    pub const fn word(self, letter: u8) -> bool {
+        self.words & letter_bit(letter) != 0
+    }
+
+    /// True if an alarm with this condition may rest on something unknown.
+    pub fn clouds(self, condition: Condition, roles: &Roles, axis: Option<u8>) -> bool {
+        if self.is_nothing() {
+            return false;
+        }
+        let any = |groups: &[usize]| groups.iter().any(|&group| self.group(group));
+        match condition {
+            Condition::FeedMissing | Condition::SpindleSpeedMissing => {
+                any(&[roles.motion, roles.feed_mode, roles.cycle]) || self.word(b'F') || self.word(b'S')
+            }
+            Condition::ArcWithoutCentre => any(&[roles.motion, roles.cycle]),
+            Condition::ArcRadiusZero | Condition::ArcRadiusTooSmall | Condition::ArcEndOff => {
+                !self.axes.is_empty() || any(&[roles.motion, roles.plane, roles.distance, roles.units, roles.work])
+            }
+            Condition::LengthOffsetWithArc | Condition::OneShotWithMotion | Condition::PositionOffsetWithoutMotion => {
+                self.group(roles.motion)
+            }
+            Condition::PositionOffsetInCycle | Condition::CycleLevelMissing | Condition::CyclePeckMissing => {
+                self.group(roles.cycle) || self.word(b'R') || self.word(b'Z') || self.word(b'Q')
+            }
+            Condition::PositionOffsetInCompensation => self.group(roles.compensation),
+            Condition::ValueOutOfRange => self.group(roles.units),
+            Condition::TravelExceeded => {
+                axis.is_some_and(|axis| self.axes.has(usize::from(axis))) || any(&[roles.cycle, roles.work, roles.distance])
+            }
+            _ => false,
+        }
+    }
+}
+
+/// The bit of a letter in a set of letters.
+pub(crate) const fn letter_bit(letter: u8) -> u32 {
+    1 << (letter.wrapping_sub(b'A') & 31)
+}

@@ -1,0 +1,144 @@
+//! A block's words by their letters, and their values as the control means them.
+
+use base::{Alarm, Condition, Decimal, Place, Span, UnitSystem};
+use dialect::{Address, Control};
+use syntax::{Block, Value, Word};
+
+/// Most G codes looked at in one block.
+pub(crate) const MOST_G: usize = 16;
+const NO_WORD: u8 = u8::MAX;
+
+/// Why a block is not carried out now.
+pub(crate) enum Refusal {
+    /// The control refuses it.
+    Alarm(Alarm),
+    /// A jump's target must be found first; then the block is read again.
+    Locate(crate::jump::Target),
+}
+
+impl From<Alarm> for Refusal {
+    fn from(alarm: Alarm) -> Refusal {
+        Refusal::Alarm(alarm)
+    }
+}
+
+/// The words of one block by letter. Of several words of one letter the last one counts.
+pub(crate) struct Words<'b> {
+    pub block: &'b Block,
+    pub place: Place,
+    by_letter: [u8; 26],
+    present: u32,
+}
+
+impl<'b> Words<'b> {
+    /// The words of a block, `words` of them (a block-delete sign may cut the rest off).
+    pub fn new(block: &'b Block, place: Place, words: usize) -> Words<'b> {
+        let mut by_letter = [NO_WORD; 26];
+        let mut present = 0;
+        for (index, word) in block.words.iter().take(words.min(usize::from(NO_WORD))).enumerate() {
+            by_letter[usize::from(word.letter - b'A') % 26] = index as u8;
+            present |= crate::unknown::letter_bit(word.letter);
+        }
+        Words { block, place, by_letter, present }
+    }
+
+    /// True if a word of this letter stands in the block.
+    pub fn has(&self, letter: u8) -> bool {
+        self.present & crate::unknown::letter_bit(letter) != 0
+    }
+
+    /// True if a word of any of these letters stands in the block.
+    pub fn has_any(&self, letters: u32) -> bool {
+        self.present & letters != 0
+    }
+
+    /// The letters that stand in the block, one bit each.
+    pub fn letters(&self) -> u32 {
+        self.present
+    }
+
+    /// The word of this letter.
+    pub fn word(&self, letter: u8) -> Option<&'b Word> {
+        let index = self.by_letter[usize::from(letter - b'A') % 26];
+        self.block.words.get(usize::from(index)).filter(|_| index != NO_WORD)
+    }
+
+    /// The number of a word; a variable in its place is executed by the macro machine, which comes later.
+    pub fn number(&self, letter: u8) -> Result<Option<Decimal>, Alarm> {
+        match self.word(letter) {
+            None => Ok(None),
+            Some(word) => self.value(word).map(Some),
+        }
+    }
+
+    /// The number of this word.
+    pub fn value(&self, word: &Word) -> Result<Decimal, Alarm> {
+        match word.value {
+            Value::Number(number) => Ok(number),
+            Value::Expression => Err(self.alarm_at(Condition::NotYetBuilt, word)),
+            Value::Missing => Err(self.alarm_at(Condition::NumberMissing, word)),
+        }
+    }
+
+    /// The place of a word.
+    pub fn span(&self, word: &Word) -> Span {
+        word.extent.span(self.block.start.offset)
+    }
+
+    /// An alarm about a word.
+    pub fn alarm_at(&self, condition: Condition, word: &Word) -> Alarm {
+        Alarm::new(condition, self.place, self.span(word)).about(word.letter)
+    }
+
+    /// An alarm about the word of a letter, or about the whole block if there is none.
+    pub fn alarm(&self, condition: Condition, letter: u8) -> Alarm {
+        match self.word(letter) {
+            Some(word) => self.alarm_at(condition, word),
+            None => Alarm::new(condition, self.place, self.place.block),
+        }
+    }
+
+    fn read<T>(
+        &self,
+        control: &Control,
+        letter: u8,
+        read: impl FnOnce(&Address, Decimal) -> Result<T, (Condition, [f64; 3])>,
+    ) -> Result<Option<T>, Alarm> {
+        let Some(number) = self.number(letter)? else { return Ok(None) };
+        let Some(address) = control.address(letter) else {
+            return Err(self.alarm(Condition::AddressUnavailable, letter));
+        };
+        read(address, number).map(Some).map_err(|(condition, values)| self.alarm(condition, letter).with(values))
+    }
+
+    /// A word as a length in nanometres.
+    pub fn length(&self, control: &Control, letter: u8, units: UnitSystem) -> Result<Option<f64>, Alarm> {
+        self.read(control, letter, |address, number| control.length(address, number, units)).map(|n| n.map(|n| n as f64))
+    }
+
+    /// A word as an angle in microdegrees.
+    pub fn angle(&self, control: &Control, letter: u8) -> Result<Option<f64>, Alarm> {
+        self.read(control, letter, |address, number| control.angle(address, number)).map(|n| n.map(|n| n as f64))
+    }
+
+    /// A word as a whole number.
+    pub fn integer(&self, control: &Control, letter: u8) -> Result<Option<i64>, Alarm> {
+        self.read(control, letter, |address, number| control.integer(address, number))
+    }
+
+    /// A word as a whole number that is not negative.
+    pub fn count(&self, control: &Control, letter: u8) -> Result<Option<u32>, Alarm> {
+        match self.integer(control, letter)? {
+            None => Ok(None),
+            Some(value) => match u32::try_from(value) {
+                Ok(count) => Ok(Some(count)),
+                Err(_) => Err(self.alarm(Condition::ValueOutOfRange, letter).with([value as f64, 0.0, 9999.0])),
+            },
+        }
+    }
+
+    /// A dwell in seconds.
+    pub fn seconds(&self, control: &Control, letter: u8) -> Result<Option<f64>, Alarm> {
+        self.read(control, letter, |address, number| control.dwell_seconds(address, number))
+    }
+}

@@ -1,0 +1,177 @@
+//! The path as far as it is kept: a bounded number of pieces, however many strokes come in.
+//!
+//! A straight chain of one kind and feed is simplified as it arrives. When the bound is reached, everything kept is
+//! coarsened, first within what the sheet can show, then by leaving out what is covered, and only if that
+//! does not help, visibly.
+
+use crate::cover::drop_covered;
+use crate::feeds::Feeds;
+use crate::piece::Piece;
+use crate::simplify::{WINDOW, simplify};
+use crate::survey::Survey;
+
+/// The most pieces that are kept.
+pub(crate) const MOST_PIECES: usize = 150_000;
+
+/// A coarsening that leaves more than this is followed by the next.
+const ENOUGH_PIECES: usize = MOST_PIECES / 8 * 7;
+
+/// The tolerance in mm of a path that is not coarsened: a tenth of a micrometre joins what is collinear.
+const COLLINEAR_MM: f64 = 1e-4;
+
+/// The tolerance of the first coarsening and the greatest that the sheet does not show, as parts of the extent. Each
+/// coarsening is at least twice the one before, so that all errors together stay about 1/4000.
+const FIRST_PART: f64 = 1.0 / 100_000.0;
+const FAITHFUL_PART: f64 = 1.0 / 6_000.0;
+
+/// The least size of a cell in which a second line is not drawn, as a part of the extent.
+const CELL_PART: f64 = 1.0 / 8_192.0;
+
+/// The region in which the path is kept reaches so far beyond the cutting moves, as a part of the extent.
+const REACH_PART: f64 = 0.25;
+
+/// The pieces that are kept, and the straight chain that is still growing.
+#[derive(Clone, Debug)]
+pub(crate) struct KeptPath {
+    pieces: Vec<Piece>,
+    /// The points of the growing chain; its kind and feed are those of the piece that began it.
+    chain: Vec<[f64; 3]>,
+    first_of_chain: Option<Piece>,
+    tolerance_mm: f64,
+    cell_mm: f64,
+}
+
+impl KeptPath {
+    /// An empty path.
+    pub fn new() -> KeptPath {
+        KeptPath {
+            pieces: Vec::new(),
+            chain: Vec::with_capacity(WINDOW + 1),
+            first_of_chain: None,
+            tolerance_mm: COLLINEAR_MM,
+            cell_mm: 0.0,
+        }
+    }
+
+    /// Takes a piece; the survey has already taken note of it.
+    pub fn push(&mut self, piece: &Piece, survey: &Survey) {
+        if piece.arc.is_some() {
+            self.end_chain(survey);
+            self.pieces.push(*piece);
+        } else {
+            self.lengthen_chain(piece, survey);
+        }
+        if self.pieces.len() >= MOST_PIECES {
+            self.coarsen(survey);
+        }
+    }
+
+    /// Everything that is kept, in the order in which it came.
+    pub fn pieces(&self) -> Vec<Piece> {
+        let mut pieces = self.pieces.clone();
+        if let Some(like) = &self.first_of_chain {
+            put_chain(&self.chain, like, self.tolerance_mm, &mut pieces);
+        }
+        pieces
+    }
+
+    /// How far from its place a piece may be drawn in mm, if that is more than the sheet hides.
+    pub fn visible_error_mm(&self, survey: &Survey) -> Option<f64> {
+        let hidden = survey.subject().span() * FAITHFUL_PART;
+        let error = self.tolerance_mm.max(self.cell_mm * 0.5);
+        (self.tolerance_mm > COLLINEAR_MM && error > hidden * 1.5).then_some(error)
+    }
+
+    fn lengthen_chain(&mut self, piece: &Piece, survey: &Survey) {
+        let goes_on = self.first_of_chain.as_ref().is_some_and(|first| joins(first, piece, &survey.feeds))
+            && self.chain.last() == Some(&piece.from);
+        if !goes_on || self.chain.len() > WINDOW {
+            self.end_chain(survey);
+            self.chain.push(piece.from);
+            self.first_of_chain = Some(*piece);
+        }
+        self.chain.push(piece.to);
+    }
+
+    fn end_chain(&mut self, survey: &Survey) {
+        if let Some(like) = self.first_of_chain.take() {
+            put_chain(&self.chain, &like, self.tolerance_mm, &mut self.pieces);
+        }
+        self.chain.clear();
+        if self.pieces.len() >= MOST_PIECES {
+            self.coarsen(survey);
+        }
+    }
+
+    /// Brings the number of pieces down, by the least harmful means that does.
+    fn coarsen(&mut self, survey: &Survey) {
+        let span = survey.subject().span().max(COLLINEAR_MM);
+        while let Some(tolerance_mm) = self.next_hidden_tolerance(span) {
+            self.tolerance_mm = tolerance_mm;
+            self.simplify_again(&survey.feeds);
+            if self.pieces.len() <= ENOUGH_PIECES {
+                return;
+            }
+        }
+        let region = survey.subject().grown(span * REACH_PART);
+        self.cell_mm = self.cell_mm.max(libm::exp2(libm::log2(span * CELL_PART).ceil()));
+        drop_covered(&mut self.pieces, &region, self.cell_mm, &survey.feeds);
+        while self.pieces.len() > ENOUGH_PIECES {
+            self.tolerance_mm *= 2.0;
+            self.cell_mm *= 2.0;
+            self.simplify_again(&survey.feeds);
+            drop_covered(&mut self.pieces, &region, self.cell_mm, &survey.feeds);
+        }
+    }
+
+    /// The next greater tolerance, if it is worth a pass and the sheet does not show it.
+    fn next_hidden_tolerance(&self, span_mm: f64) -> Option<f64> {
+        let next = (self.tolerance_mm * 4.0).max(span_mm * FIRST_PART).min(span_mm * FAITHFUL_PART);
+        (next >= self.tolerance_mm * 2.0).then_some(next)
+    }
+
+    /// Joins what is kept with the present tolerance: small arcs become chords, chains lose points.
+    fn simplify_again(&mut self, feeds: &Feeds) {
+        let mut fewer: Vec<Piece> = Vec::with_capacity(MOST_PIECES);
+        let mut like: Option<Piece> = None;
+        let mut chain: Vec<[f64; 3]> = Vec::new();
+        for mut piece in self.pieces.drain(..) {
+            if piece.curve().is_some_and(|curve| curve.bend_mm() <= 0.25 * self.tolerance_mm) {
+                piece.arc = None;
+            }
+            let goes_on = piece.arc.is_none()
+                && chain.last() == Some(&piece.from)
+                && like.as_ref().is_some_and(|first| joins(first, &piece, feeds));
+            if !goes_on {
+                if let Some(like) = like.take() {
+                    put_chain(&chain, &like, self.tolerance_mm, &mut fewer);
+                }
+                chain.clear();
+                if piece.arc.is_some() {
+                    fewer.push(piece);
+                    continue;
+                }
+                chain.push(piece.from);
+                like = Some(piece);
+            }
+            chain.push(piece.to);
+        }
+        if let Some(like) = like {
+            put_chain(&chain, &like, self.tolerance_mm, &mut fewer);
+        }
+        self.pieces = fewer;
+    }
+}
+
+/// True if the second piece is drawn in the first one's way.
+fn joins(first: &Piece, second: &Piece, feeds: &Feeds) -> bool {
+    first.kind == second.kind && feeds.alike(first.feed, second.feed)
+}
+
+/// Appends a chain of points as straight pieces.
+fn put_chain(chain: &[[f64; 3]], like: &Piece, tolerance_mm: f64, pieces: &mut Vec<Piece>) {
+    let mut points = Vec::with_capacity(chain.len());
+    simplify(chain, tolerance_mm, &mut points);
+    let straight = points.windows(2).map(|pair| Piece { from: pair[0], to: pair[1], arc: None, ..*like });
+    pieces.extend(straight.filter(|piece| piece.from != piece.to));
+}

@@ -1,0 +1,201 @@
+//! The legend: every line and sign that occurs, with its meaning, in rows below the views.
+
+use crate::canvas::Canvas;
+use crate::colour::{AXIS, INK, RAPID, hex};
+use crate::label::{Anchor, Label};
+use crate::layout::{MARGIN, SHEET_WIDTH};
+use crate::mark::MarkKind;
+use crate::palette::Palette;
+use crate::rect::Rect;
+use crate::scale::{Step, written};
+use crate::sign::{draw_hole, draw_sign};
+use crate::text::width;
+
+const SIZE: f64 = 14.0;
+const ROW: f64 = 28.0;
+const BETWEEN: f64 = 34.0;
+const LINE_SAMPLE: f64 = 34.0;
+const SIGN_SAMPLE: f64 = 18.0;
+const BAR: f64 = 420.0;
+/// A row with the continuous scale is higher: its numbers stand below it.
+const BAR_ROW: f64 = 50.0;
+
+/// One entry of the legend.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Entry {
+    /// The rapids' line.
+    Rapid,
+    /// One of a few feeds: its shade and value in mm/min.
+    Feed(usize, f64),
+    /// The continuous scale of feeds.
+    Scale,
+    /// A drilled hole.
+    Hole,
+    /// A mark.
+    Sign(MarkKind),
+}
+
+impl Entry {
+    fn text(&self) -> String {
+        match self {
+            Entry::Rapid => "rapid".to_owned(),
+            Entry::Feed(_, feed) => format!("feed {} mm/min", written(*feed)),
+            Entry::Scale => "feed mm/min".to_owned(),
+            Entry::Hole => "drilled hole".to_owned(),
+            Entry::Sign(kind) => kind.name().to_owned(),
+        }
+    }
+
+    fn sample(&self) -> f64 {
+        match self {
+            Entry::Rapid | Entry::Feed(..) => LINE_SAMPLE,
+            Entry::Hole | Entry::Sign(_) => SIGN_SAMPLE,
+            Entry::Scale => 0.0,
+        }
+    }
+
+    fn width(&self) -> f64 {
+        let beside = if *self == Entry::Scale { BAR } else { self.sample() };
+        beside + 10.0 + width(&self.text(), SIZE)
+    }
+}
+
+/// The entries in rows.
+pub(crate) struct Legend {
+    rows: Vec<Vec<Entry>>,
+}
+
+impl Legend {
+    /// The legend of these entries, as few rows as the sheet's width allows.
+    pub fn new(entries: Vec<Entry>) -> Legend {
+        let mut rows: Vec<Vec<Entry>> = Vec::new();
+        let mut used = f64::INFINITY;
+        for entry in entries {
+            let wide = entry.width();
+            if used + wide > SHEET_WIDTH - 2.0 * MARGIN {
+                rows.push(Vec::new());
+                used = 0.0;
+            }
+            used += wide + BETWEEN;
+            if let Some(row) = rows.last_mut() {
+                row.push(entry);
+            }
+        }
+        Legend { rows }
+    }
+
+    /// The height that the legend takes.
+    pub fn height(&self) -> f64 {
+        self.rows.iter().map(|row| row_height(row)).sum()
+    }
+
+    /// Draws the legend with its top at a height of the sheet.
+    pub fn draw(&self, canvas: &mut Canvas, top: f64, palette: &Palette) {
+        let mut y = top;
+        for row in &self.rows {
+            let mut x = MARGIN;
+            for entry in row {
+                draw_entry(canvas, entry, [x, y + 0.5 * ROW], palette);
+                x += entry.width() + BETWEEN;
+            }
+            y += row_height(row);
+        }
+    }
+}
+
+fn row_height(row: &[Entry]) -> f64 {
+    if row.contains(&Entry::Scale) { BAR_ROW } else { ROW }
+}
+
+fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Palette) {
+    let middle = [x + 0.5 * entry.sample(), y];
+    match entry {
+        Entry::Rapid => {
+            canvas.open(&format!("stroke=\"{RAPID}\" stroke-width=\"1.2\" stroke-dasharray=\"6 4\""));
+            canvas.line([x, y], [x + LINE_SAMPLE, y]);
+            canvas.close();
+        }
+        Entry::Feed(shade, _) => {
+            let colour = hex(palette.colour(*shade));
+            canvas.open(&format!("stroke=\"{colour}\" stroke-width=\"3\" stroke-linecap=\"round\""));
+            canvas.line([x, y], [x + LINE_SAMPLE, y]);
+            canvas.close();
+        }
+        Entry::Hole => {
+            canvas.open(&format!("stroke=\"{INK}\" stroke-width=\"1.4\""));
+            draw_hole(canvas, middle, 5.0);
+            canvas.close();
+        }
+        Entry::Sign(kind) => draw_sign(canvas, *kind, middle),
+        Entry::Scale => return draw_scale(canvas, [x, y], palette),
+    }
+    let label = Label::new(entry.text(), [x + entry.sample() + 10.0, y], SIZE, Anchor::Start).centred();
+    canvas.text(&label, INK);
+}
+
+/// Draws the continuous scale: the shades in equal ratios, with round numbers below.
+fn draw_scale(canvas: &mut Canvas, [x, y]: [f64; 2], palette: &Palette) {
+    let label = Label::new(Entry::Scale.text(), [x, y], SIZE, Anchor::Start).centred();
+    let left = x + width(&label.text, SIZE) + 10.0;
+    canvas.text(&label, INK);
+    let shades = palette.shades();
+    let each = BAR / shades as f64;
+    for shade in 0..shades {
+        // Each reaches under the next, so that no hairline of paper is left between them.
+        let under = if shade + 1 < shades { 1.0 } else { 0.0 };
+        let part = Rect { x: left + shade as f64 * each, y: y - 6.0, width: each + under, height: 12.0 };
+        canvas.rect(&part, &format!("fill=\"{}\"", hex(palette.colour(shade))));
+    }
+    canvas.open(&format!("stroke=\"{AXIS}\" stroke-width=\"1\""));
+    let mut free_from = f64::NEG_INFINITY;
+    let mut numbers = Vec::new();
+    for feed in scale_ticks(palette) {
+        let at = left + palette.place(feed) * BAR;
+        canvas.line([at, y + 6.0], [at, y + 11.0]);
+        let number = Label::new(written(feed), [at, y + 25.0], SIZE - 1.0, Anchor::Middle);
+        let room = number.room();
+        if room.x >= free_from && room.x >= x {
+            free_from = room.right() + 10.0;
+            numbers.push(number);
+        }
+    }
+    canvas.close();
+    numbers.iter().for_each(|number| canvas.text(number, INK));
+}
+
+/// Round feeds on the scale: 1, 2, 5 of every decade if the scale is wide, else equal steps.
+fn scale_ticks(palette: &Palette) -> Vec<f64> {
+    let Palette::Scale { slowest, fastest } = palette else {
+        return Vec::new();
+    };
+    if fastest / slowest < 8.0 {
+        return Step::at_least((fastest - slowest) / 8.0).ticks(*slowest, *fastest);
+    }
+    let mut ticks = Vec::new();
+    let mut feed = Step::at_least(*slowest).times(1.0);
+    while feed <= fastest * (1.0 + 1e-9) && ticks.len() < 60 {
+        ticks.push(feed);
+        feed = Step::at_least(feed * 1.5).times(1.0);
+    }
+    ticks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_is_ticked_at_round_feeds() {
+        let ticks = |slowest, fastest| scale_ticks(&Palette::Scale { slowest, fastest });
+        assert_eq!(ticks(90.0, 1200.0), [100.0, 200.0, 500.0, 1000.0]);
+        assert_eq!(ticks(480.0, 620.0), [480.0, 500.0, 520.0, 540.0, 560.0, 580.0, 600.0, 620.0]);
+    }
+
+    #[test]
+    fn a_long_legend_takes_more_rows() {
+        let few = Legend::new(vec![Entry::Rapid, Entry::Feed(0, 100.0)]);
+        let many = Legend::new((0..20).map(|nth| Entry::Feed(nth, 1000.0)).collect());
+        assert_eq!(few.height(), ROW);
+        assert!(many.height() >= 2.0 * ROW);
+    }
+}

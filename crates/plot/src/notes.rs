@@ -1,0 +1,71 @@
+//! What the picture cannot show, said in words below it.
+
+use crate::extent::Extent;
+use crate::scale::{written, written_range};
+use crate::sheet::{Content, Views, written_point};
+use crate::stroke::Kind;
+
+/// So many places outside the picture are named one by one.
+const MOST_PLACES: usize = 3;
+
+/// So many marks outside the picture are named one by one.
+const MOST_MARKS: usize = 8;
+
+/// The notes, one a line.
+pub(crate) fn notes(content: &Content, views: &Views) -> Vec<String> {
+    let mut notes = Vec::new();
+    notes.extend(rapids_outside(content, views));
+    notes.extend(marks_outside(content, views));
+    notes.extend(content.visible_error_mm.map(|error| {
+        format!("The program is long: lines are drawn to within {} mm of their place.", written(error.max(0.001)))
+    }));
+    notes
+}
+
+/// Where rapids go that leave a view.
+fn rapids_outside(content: &Content, views: &Views) -> Option<String> {
+    let mut places: Vec<[f64; 3]> = Vec::new();
+    let mut around = Extent::EMPTY;
+    for piece in content.pieces.iter().filter(|piece| piece.kind == Kind::Rapid) {
+        for end in [piece.from, piece.to] {
+            if !views.show(end) {
+                around.include(end);
+                if places.len() <= MOST_PLACES && !places.contains(&end) {
+                    places.push(end);
+                }
+            }
+        }
+    }
+    if around.is_empty() {
+        return None;
+    }
+    let to = if places.len() <= MOST_PLACES {
+        places.into_iter().map(written_point).collect::<Vec<_>>().join("; ")
+    } else {
+        let range = |axis: usize| written_range(around.min[axis], around.max[axis]);
+        format!("X {}  Y {}  Z {}", range(0), range(1), range(2))
+    };
+    Some(format!("Rapids leave the picture: to {to} (mm)."))
+}
+
+/// Which marks neither view shows, and where they are.
+fn marks_outside(content: &Content, views: &Views) -> Option<String> {
+    let outside: Vec<_> =
+        content.marks.iter().filter(|mark| !views.plan.shows(mark.at) && !views.isometric.shows(mark.at)).collect();
+    let mut places: Vec<([f64; 3], Vec<String>)> = Vec::new();
+    for mark in outside.iter().take(MOST_MARKS) {
+        match places.iter_mut().find(|(at, _)| *at == mark.at) {
+            Some((_, labels)) => labels.push(mark.label()),
+            None => places.push((mark.at, vec![mark.label()])),
+        }
+    }
+    if places.is_empty() {
+        return None;
+    }
+    let named = places.into_iter().map(|(at, labels)| format!("{} at {}", labels.join(", "), written_point(at)));
+    let more = match outside.len().saturating_sub(MOST_MARKS) {
+        0 => String::new(),
+        more => format!("; {} more", written(more as f64)),
+    };
+    Some(format!("Outside the picture: {}{more}.", named.collect::<Vec<_>>().join("; ")))
+}

@@ -1,0 +1,187 @@
+//! The whole sheet: header, both views, legend, notes.
+
+use crate::canvas::Canvas;
+use crate::colour::{GRID, INK, PAPER, SOFT_INK};
+use crate::drawing::Title;
+use crate::extent::Extent;
+use crate::frame::frame;
+use crate::hole::{DownCut, down_cuts};
+use crate::isometric_axes::{draw_isometric_axes, draw_isometric_floor};
+use crate::label::{Anchor, Label, Places};
+use crate::layout::{ISOMETRIC_INSET, Layout, MARGIN, PLAN_INSET, SHEET_WIDTH, layout};
+use crate::legend::{Entry, Legend};
+use crate::mark::Mark;
+use crate::notes::notes;
+use crate::palette::Palette;
+use crate::piece::Piece;
+use crate::plan_axes::{draw_plan_axes, draw_plan_grid};
+use crate::rect::Rect;
+use crate::scale::{written, written_length, written_range};
+use crate::sign::draw_marks;
+use crate::stroke::Kind;
+use crate::strokes::{draw_down_cuts, draw_strokes};
+use crate::survey::Survey;
+use crate::text::{shortened, width};
+use crate::view::{Projection, View};
+
+const TITLE_SIZE: f64 = 26.0;
+const SUBTITLE_SIZE: f64 = 16.0;
+const FACTS_SIZE: f64 = 15.0;
+const HEADING_SIZE: f64 = 14.0;
+const NOTE_SIZE: f64 = 14.0;
+const NOTE_ROW: f64 = 22.0;
+
+/// More tools than this are counted, not named.
+const MOST_NAMED_TOOLS: usize = 12;
+
+/// Everything that a sheet shows.
+pub(crate) struct Content<'a> {
+    pub title: &'a Title,
+    pub survey: &'a Survey,
+    pub pieces: &'a [Piece],
+    pub marks: &'a [Mark],
+    /// How far from its place the path may be drawn in mm, if that can be seen.
+    pub visible_error_mm: Option<f64>,
+}
+
+/// The sheet as SVG.
+pub(crate) fn sheet(content: &Content) -> String {
+    let palette = Palette::new(&content.survey.feeds);
+    let frame = frame(content.survey, content.pieces);
+    let cuts = down_cuts(content.pieces);
+    let size = |projection: Projection| {
+        let flat = projection.flat_extent(&frame);
+        [flat.width, flat.height]
+    };
+    let layout = layout(size(Projection::Plan), size(Projection::Isometric));
+    let views = Views {
+        plan: View::fit(Projection::Plan, &frame, layout.plan, PLAN_INSET),
+        isometric: View::fit(Projection::Isometric, &frame, layout.isometric, ISOMETRIC_INSET),
+    };
+    let legend = Legend::new(entries(content, &views, &palette, &cuts));
+    let notes = notes(content, &views);
+    let legend_top = layout.views_bottom + 22.0;
+    let notes_top = legend_top + legend.height() + 8.0;
+    let height = (notes_top + NOTE_ROW * notes.len() as f64 + MARGIN - 14.0).ceil();
+
+    let mut canvas = Canvas::new(SHEET_WIDTH, height);
+    canvas.title(&content.title.program);
+    canvas.rect(&Rect { x: 0.0, y: 0.0, width: SHEET_WIDTH, height }, &format!("fill=\"{PAPER}\""));
+    draw_header(&mut canvas, content);
+    draw_headings(&mut canvas, &layout);
+    draw_plan(&mut canvas, &views.plan, content, &palette, &cuts);
+    draw_isometric(&mut canvas, &views.isometric, content, &palette, &frame);
+    legend.draw(&mut canvas, legend_top, &palette);
+    for (row, note) in notes.iter().enumerate() {
+        let text = shortened(note, NOTE_SIZE, SHEET_WIDTH - 2.0 * MARGIN);
+        let at = [MARGIN, notes_top + NOTE_ROW * (row as f64 + 0.5)];
+        canvas.text(&Label::new(text, at, NOTE_SIZE, Anchor::Start).centred(), SOFT_INK);
+    }
+    canvas.finish()
+}
+
+/// The two views of a sheet.
+pub(crate) struct Views {
+    pub plan: View,
+    pub isometric: View,
+}
+
+impl Views {
+    /// True if both views show the point.
+    pub fn show(&self, point: [f64; 3]) -> bool {
+        self.plan.shows(point) && self.isometric.shows(point)
+    }
+}
+
+fn draw_header(canvas: &mut Canvas, content: &Content) {
+    let room = SHEET_WIDTH - 2.0 * MARGIN;
+    let title = content.title;
+    let machine = [&title.control, &title.machine].map(|part| part.trim());
+    let machine = machine.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  \u{b7}  ");
+    let machine = shortened(&machine, SUBTITLE_SIZE, room * 0.5);
+    let program = shortened(&title.program, TITLE_SIZE, room - width(&machine, SUBTITLE_SIZE) - 40.0);
+    canvas.text(&Label::new(program, [MARGIN, 60.0], TITLE_SIZE, Anchor::Start), INK);
+    canvas.text(&Label::new(machine, [SHEET_WIDTH - MARGIN, 60.0], SUBTITLE_SIZE, Anchor::End), SOFT_INK);
+    let facts = shortened(&facts(content.survey), FACTS_SIZE, room);
+    canvas.text(&Label::new(facts, [MARGIN, 91.0], FACTS_SIZE, Anchor::Start), SOFT_INK);
+    canvas.open(&format!("stroke=\"{GRID}\" stroke-width=\"1.5\""));
+    canvas.line([MARGIN, 108.0], [SHEET_WIDTH - MARGIN, 108.0]);
+    canvas.close();
+}
+
+/// Extents, lengths and tools in one line.
+fn facts(survey: &Survey) -> String {
+    let subject = survey.subject();
+    if subject.is_empty() {
+        return "nothing moves".to_owned();
+    }
+    let axes: Vec<String> = ["X", "Y", "Z"]
+        .iter()
+        .enumerate()
+        .map(|(axis, name)| format!("{name} {}", written_range(subject.min[axis], subject.max[axis])))
+        .collect();
+    let what = if survey.cutting.is_empty() { "rapids" } else { "cutting" };
+    let mut parts = vec![
+        format!("{what}  {} mm", axes.join("   ")),
+        format!("cutting path {}", written_length(survey.cutting_mm)),
+        format!("rapids {}", written_length(survey.rapid_mm)),
+    ];
+    let tools = survey.tools.len();
+    if tools > MOST_NAMED_TOOLS {
+        parts.push(format!("{tools} tools"));
+    } else if tools > 0 {
+        parts.push(survey.tools.iter().map(|tool| format!("T{tool}")).collect::<Vec<_>>().join(" "));
+    }
+    parts.join("   \u{b7}   ")
+}
+
+fn draw_headings(canvas: &mut Canvas, layout: &Layout) {
+    for (panel, text) in [(layout.plan, "Plan"), (layout.isometric, "Isometric")] {
+        canvas.text(&Label::new(text, [panel.x, panel.y - 12.0], HEADING_SIZE, Anchor::Start), INK);
+    }
+}
+
+fn draw_plan(canvas: &mut Canvas, view: &View, content: &Content, palette: &Palette, cuts: &[DownCut]) {
+    let mut places = Places::default();
+    draw_plan_grid(canvas, view);
+    draw_strokes(canvas, view, content.pieces, palette);
+    draw_down_cuts(canvas, view, cuts, palette, &mut places);
+    draw_plan_axes(canvas, view, &mut places);
+    draw_marks(canvas, view, content.marks, &mut places);
+}
+
+fn draw_isometric(canvas: &mut Canvas, view: &View, content: &Content, palette: &Palette, frame: &Extent) {
+    let mut places = Places::default();
+    canvas.rect(&view.panel, &format!("stroke=\"{GRID}\" stroke-width=\"1\""));
+    draw_isometric_floor(canvas, view, frame);
+    draw_strokes(canvas, view, content.pieces, palette);
+    draw_isometric_axes(canvas, view, frame, &mut places);
+    draw_marks(canvas, view, content.marks, &mut places);
+}
+
+fn entries(content: &Content, views: &Views, palette: &Palette, cuts: &[DownCut]) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    if content.pieces.iter().any(|piece| piece.kind == Kind::Rapid) {
+        entries.push(Entry::Rapid);
+    }
+    match palette {
+        Palette::Few(feeds) => {
+            entries.extend(feeds.iter().enumerate().map(|(shade, feed)| Entry::Feed(shade, *feed)));
+        }
+        Palette::Scale { .. } => entries.push(Entry::Scale),
+    }
+    if cuts.iter().any(|cut| cut.is_hole) {
+        entries.push(Entry::Hole);
+    }
+    let seen = |mark: &&Mark| views.plan.shows(mark.at) || views.isometric.shows(mark.at);
+    let mut kinds: Vec<_> = content.marks.iter().filter(seen).map(|mark| mark.kind.without_number()).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    entries.extend(kinds.into_iter().map(Entry::Sign));
+    entries
+}
+
+/// X, Y, Z of a point, for reading.
+pub(crate) fn written_point(point: [f64; 3]) -> String {
+    format!("X {} Y {} Z {}", written(point[0]), written(point[1]), written(point[2]))
+}

@@ -1,0 +1,207 @@
+//! The path in one view: rapids dashed and clipped at the panel, feeds in their colours, down cuts as signs.
+
+use std::collections::BTreeSet;
+
+use crate::arc::Curve;
+use crate::canvas::{Canvas, short};
+use crate::clip::Clipped;
+use crate::colour::{PAPER, RAPID, hex};
+use crate::hole::DownCut;
+use crate::ink::{Weights, weights};
+use crate::label::Places;
+use crate::palette::Palette;
+use crate::path_data::PathData;
+use crate::piece::Piece;
+use crate::rect::Rect;
+use crate::sign::draw_hole;
+use crate::stroke::Kind;
+use crate::view::View;
+
+/// How far chords stand off an arc, in sheet units, unless that makes too many.
+const CHORD: f64 = 0.08;
+
+/// All arcs together are cut into about so many chords at most.
+const MOST_CHORDS: usize = 200_000;
+
+/// An arc is drawn in parts of less than a third of a turn: longer ones are ill-conditioned in SVG.
+const PART_RAD: f64 = 2.0;
+
+/// The size of an arrow at the panel's side, and how near two arrows may be, in sheet units.
+const ARROW: [f64; 2] = [9.0, 3.2];
+const ARROW_GRID: f64 = 7.0;
+
+/// The radius of a hole's sign, greatest and least, and of a plunge's dot.
+const HOLE: [f64; 2] = [5.0, 1.0];
+const PLUNGE: f64 = 1.9;
+
+/// Draws the path.
+pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], palette: &Palette) {
+    let weights = weights(view, pieces);
+    draw_rapids(canvas, view, pieces, &weights);
+    let tolerance_mm = chord_tolerance(view, pieces);
+    let mut paths = vec![PathData::default(); palette.shades()];
+    for piece in pieces.iter().filter(|piece| piece.kind == Kind::Feed) {
+        if let Some(path) = paths.get_mut(palette.shade(piece.feed)) {
+            draw_feed(path, view, piece, tolerance_mm);
+        }
+    }
+    let width = short(weights.feed);
+    canvas.open(&format!("stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\""));
+    // The slow feeds lie on top: they are few, and dark.
+    for (shade, path) in paths.into_iter().enumerate().rev() {
+        let parts = path.finish();
+        if !parts.is_empty() {
+            canvas.open(&format!("stroke=\"{}\"", hex(palette.colour(shade))));
+            parts.iter().for_each(|d| canvas.path(d, ""));
+            canvas.close();
+        }
+    }
+    canvas.close();
+}
+
+fn draw_feed(path: &mut PathData, view: &View, piece: &Piece, tolerance_mm: f64) {
+    if let Some(curve) = piece.curve() {
+        let flat_enough = 0.02 / view.scale;
+        let is_ellipse = view.projection == crate::view::Projection::Plan || curve.is_flat();
+        if is_ellipse && curve.is_round_in_plan(flat_enough) && curve.bend_mm() > flat_enough {
+            return draw_ellipse(path, view, piece, &curve);
+        }
+    }
+    piece.for_each_line(tolerance_mm, |from, to| path.line(view.place(from), view.place(to)));
+}
+
+/// Draws an arc in the XY plane exactly; of several turns on top of each other, one.
+fn draw_ellipse(path: &mut PathData, view: &View, piece: &Piece, curve: &Curve) {
+    let radii = view.projection.circle_radii().map(|radius| radius * curve.radius() * view.scale);
+    let turns = (curve.sweep_rad.abs() / std::f64::consts::TAU).max(1.0);
+    let parts = (curve.sweep_rad.abs() / turns / PART_RAD).ceil().max(1.0);
+    let mut last = view.place(piece.from);
+    for part in 1..=parts as usize {
+        let whole = part as f64 == parts && turns == 1.0;
+        let next = view.place(if whole { piece.to } else { curve.at(part as f64 / parts / turns) });
+        path.ellipse(last, next, radii, curve.sweep_rad < 0.0);
+        last = next;
+    }
+}
+
+/// The chord tolerance in mm with which all arcs of the path stay a bounded number of chords.
+fn chord_tolerance(view: &View, pieces: &[Piece]) -> f64 {
+    let mut tolerance_mm = CHORD / view.scale;
+    let chords = |tolerance_mm: f64| -> usize {
+        pieces.iter().filter_map(Piece::curve).map(|curve| curve.steps(tolerance_mm)).sum()
+    };
+    let least = pieces.iter().filter(|piece| piece.arc.is_some()).count();
+    for _ in 0..8 {
+        if chords(tolerance_mm) <= MOST_CHORDS + least {
+            break;
+        }
+        tolerance_mm *= 2.0;
+    }
+    tolerance_mm
+}
+
+fn draw_rapids(canvas: &mut Canvas, view: &View, pieces: &[Piece], weights: &Weights) {
+    let mut path = PathData::default();
+    let mut arrows = Arrows::default();
+    for piece in pieces.iter().filter(|piece| piece.kind == Kind::Rapid) {
+        piece.for_each_line(CHORD / view.scale, |from, to| {
+            if let Some(part) = view.line(from, to) {
+                path.line(part.from, part.to);
+                arrows.note(&part);
+            }
+        });
+    }
+    let dashes = if weights.dashed { " stroke-dasharray=\"6 4\"" } else { "" };
+    canvas.open(&format!("stroke=\"{RAPID}\" stroke-width=\"{}\"{dashes}", short(weights.rapid)));
+    path.finish().iter().for_each(|d| canvas.path(d, ""));
+    canvas.close();
+    if !arrows.d.is_empty() {
+        canvas.path(&arrows.d, &format!("fill=\"{RAPID}\""));
+    }
+}
+
+/// The arrows where rapids leave the panel, none on top of another.
+#[derive(Default)]
+struct Arrows {
+    d: String,
+    drawn: BTreeSet<[i64; 2]>,
+}
+
+impl Arrows {
+    fn note(&mut self, part: &Clipped) {
+        let along = [part.to[0] - part.from[0], part.to[1] - part.from[1]];
+        let length = libm::hypot(along[0], along[1]);
+        let cell = part.to.map(|at| (at / ARROW_GRID).round() as i64);
+        if !part.leaves || length < 1e-6 || !self.drawn.insert(cell) {
+            return;
+        }
+        let ([x, y], [dx, dy], [long, half]) = (part.to, along.map(|part| part / length), ARROW);
+        let back = [x - dx * long, y - dy * long];
+        for (command, at) in [
+            ('M', [x, y]),
+            ('L', [back[0] - dy * half, back[1] + dx * half]),
+            ('L', [back[0] + dy * half, back[1] - dx * half]),
+        ] {
+            self.d.push_str(&format!("{command}{} {}", short(at[0]), short(at[1])));
+        }
+        self.d.push('z');
+    }
+}
+
+/// Draws the down cuts of a plan.
+pub(crate) fn draw_down_cuts(
+    canvas: &mut Canvas,
+    view: &View,
+    cuts: &[DownCut],
+    palette: &Palette,
+    places: &mut Places,
+) {
+    // Repeated cuts on one place are drawn once.
+    let mut seen = BTreeSet::new();
+    let mut distinct: Vec<(&DownCut, [f64; 2])> = Vec::new();
+    for cut in cuts {
+        let at = view.place([cut.at[0], cut.at[1], 0.0]);
+        if seen.insert((at.map(|at| (at * 2.0).round() as i64), cut.is_hole)) {
+            distinct.push((cut, at));
+        }
+    }
+    let holes = distinct.iter().filter(|(cut, _)| cut.is_hole);
+    let radius = hole_radius(&holes.map(|(_, at)| *at).collect::<Vec<_>>());
+    for shade in 0..palette.shades() {
+        let colour = hex(palette.colour(shade));
+        let of_shade = || distinct.iter().filter(|(cut, _)| palette.shade(cut.feed) == shade);
+        if of_shade().next().is_none() {
+            continue;
+        }
+        canvas.open(&format!("fill=\"{colour}\""));
+        for (_, at) in of_shade().filter(|(cut, _)| !cut.is_hole) {
+            canvas.circle(*at, PLUNGE.min(radius));
+        }
+        canvas.close();
+        canvas.open(&format!(
+            "fill=\"{PAPER}\" stroke=\"{colour}\" stroke-width=\"{}\"",
+            short((radius * 0.28).max(0.3))
+        ));
+        for (_, at) in of_shade().filter(|(cut, _)| cut.is_hole) {
+            draw_hole(canvas, *at, radius);
+            if radius > 2.0 {
+                places.take(Rect { x: at[0], y: at[1], width: 0.0, height: 0.0 }.grown(radius));
+            }
+        }
+        canvas.close();
+    }
+}
+
+/// The radius at which so many signs in their area do not touch each other.
+fn hole_radius(at: &[[f64; 2]]) -> f64 {
+    if at.len() < 2 {
+        return HOLE[0];
+    }
+    let bounds = at.iter().fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |b, [x, y]| {
+        [b[0].min(*x), b[1].min(*y), b[2].max(*x), b[3].max(*y)]
+    });
+    let (wide, high) = (bounds[2] - bounds[0], bounds[3] - bounds[1]);
+    let gaps = at.len() as f64 - 1.0;
+    let apart = (wide * high / gaps).sqrt().max(wide.max(high) / gaps);
+    (apart * 0.28).clamp(HOLE[1], HOLE[0])
+}
