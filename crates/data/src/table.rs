@@ -234,6 +234,14 @@ impl<'d, 't> Entry<'d, 't> {
         }
     }
 
+    /// The value if it is true or false; any other kind is no error.
+    pub fn boolean_or_none(&self) -> Option<bool> {
+        match self.value.get_ref() {
+            DeValue::Boolean(value) => Some(*value),
+            _ => None,
+        }
+    }
+
     /// The value as a string, or a number or truth value as it is written.
     pub fn written(&self) -> Option<String> {
         match self.value.get_ref() {

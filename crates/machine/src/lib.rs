@@ -1,1 +1,14 @@
-//! (to come)
+//! The machine: what the builder's file says of it, and a deterministic virtual one that executes timed shapes.
+//!
+//! Comes in: shapes with their durations. Goes out: [`Event`]s in the order of execution, with virtual time. Must
+//! never know: a clock, a file, what any control's codes mean. A machine with real axes is another [`Machine`].
+
+mod event;
+mod file;
+mod travel;
+mod virtual_machine;
+
+pub use event::{Event, EventKind, ResetCause, StopCause};
+pub use file::{CodeTimes, MachineFile, Wiring, builtin_machine, builtin_machines, read_machine};
+pub use travel::Travel;
+pub use virtual_machine::{Machine, Refusal, VirtualMachine};

@@ -5,6 +5,7 @@ use dialect::GroupCodes;
 use syntax::Extent;
 
 use crate::cycle::Holes;
+use crate::program::Frame;
 use crate::operation::{CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
 use crate::state::State;
 
@@ -81,6 +82,8 @@ pub struct Command {
     pub(crate) axis_words: [Extent; AXES],
     /// Axes written absolutely.
     pub absolute: AxisSet,
+    /// The program it belongs to, with the cursor on the block after it.
+    pub(crate) frame: Frame,
 }
 
 impl Command {

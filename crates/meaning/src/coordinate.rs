@@ -5,26 +5,34 @@
 use base::{AXES, Alarm, AxisSet, Condition};
 use dialect::Meaning;
 
-use crate::block::Reading;
+use crate::block::{Reading, Setting};
 use crate::command::Body;
 use crate::operation::SetValue;
+use crate::state::State;
 
 /// The axis on which the tool length offset acts, whatever the plane.
 pub(crate) const LENGTH_AXIS: u8 = b'Z';
 
+impl Setting {
+    /// Machine coordinate of program zero on an axis in a state, offsets included (counts).
+    pub fn zero(&self, state: &State, axis: usize) -> f64 {
+        let row = state.groups.0[self.control.roles.work];
+        let origin = match self.control.g_codes.get(usize::from(row)) {
+            Some(code) if code.meaning == Meaning::WorkSystem => {
+                let index = usize::from(code.number.saturating_sub(1));
+                self.memory.work.get(index).map_or(0.0, |origin| origin[axis])
+            }
+            _ => state.base_origin[axis],
+        };
+        let length = if Some(axis) == self.length_axis { state.length } else { 0.0 };
+        origin + state.common_shift[axis] + length
+    }
+}
+
 impl Reading<'_> {
     /// Machine coordinate of program zero on an axis, offsets included.
     pub fn zero(&self, axis: usize) -> f64 {
-        let control = self.setting.control.as_ref();
-        let row = self.next.groups.0[control.roles.work];
-        let origin = match control.g_codes.get(usize::from(row)) {
-            Some(code) if code.meaning == Meaning::WorkSystem => {
-                let index = usize::from(code.number.saturating_sub(1));
-                self.setting.memory.work.get(index).map_or(0.0, |origin| origin[axis])
-            }
-            _ => self.next.base_origin[axis],
-        };
-        origin + self.next.common_shift[axis] + self.length_on(axis)
+        self.setting.zero(&self.next, axis)
     }
 
     /// The length offset in force on an axis.

@@ -287,7 +287,7 @@ impl Interpreter {
 
     /// RESET: the queue is dropped, the executing block's state restored, the reset table applied.
     ///
-    /// `machine` is where the axes really stand (mm, degrees). The program pointer goes to the head.
+    /// `machine` is where the axes really stand (mm, degrees). The program goes on with the block after the executing one.
     pub fn reset(&mut self, machine: &Point) {
         self.restore(machine);
         let setting = &self.reader.setting;
@@ -304,11 +304,42 @@ impl Interpreter {
     /// Drops what was read and not executed: the state is that of the executing block, the axes stand at `machine`.
     pub fn restore(&mut self, machine: &Point) {
         let state = *self.executing_state();
+        let frame = self.queue.front().filter(|command| command.place.line > 0).map(|command| command.frame);
         self.drop_queue();
         self.reader.state = state;
         self.reader.stand_at(to_counts(machine));
-        self.reader.end();
+        if let Some(frame) = frame {
+            self.reader.go_to(&frame);
+        }
+        self.started = false;
         self.start_state = self.reader.state;
+    }
+
+    /// CYCLE START after a program's end that did not rewind: reading goes on with the block after it.
+    pub fn go_on_after_end(&mut self) {
+        self.drop_queue();
+        self.reader.go_on();
+        self.started = false;
+    }
+
+    /// Where the axes are in the coordinates of the work system in force: mm and degrees for a machine position.
+    pub fn work_position(&self, machine: &Point) -> Point {
+        let setting = &self.reader.setting;
+        let mut work = [0.0; AXES];
+        for axis in 0..setting.facts.axes.len().min(AXES) {
+            work[axis] = ((machine[axis] * 1e6).round() - setting.zero(self.executing_state(), axis)) / 1e6;
+        }
+        work
+    }
+
+    /// What the UNIVERSAL display shows for a machine position.
+    pub fn universal_position(&self, machine: &Point) -> Point {
+        let state = self.executing_state();
+        let mut shown = [0.0; AXES];
+        for axis in 0..self.reader.setting.facts.axes.len().min(AXES) {
+            shown[axis] = ((machine[axis] * 1e6).round() - state.universal_zero[axis]) / 1e6;
+        }
+        shown
     }
 
     fn drop_queue(&mut self) {

@@ -28,7 +28,7 @@ impl Names {
 }
 
 /// One program in execution: the main program or a subprogram on its level.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Frame {
     pub program: ProgramId,
     pub source: SourceId,

@@ -99,6 +99,18 @@ impl Reader {
         self.seen_until = 1;
     }
 
+    /// Goes on at the block after a command, with nothing called.
+    pub fn go_to(&mut self, frame: &Frame) {
+        self.rewind();
+        self.calls.frames.clear();
+        self.calls.frames.push(Frame { repeats: 0, begun: true, ..*frame });
+    }
+
+    /// Reads on after a program's end.
+    pub fn go_on(&mut self) {
+        self.ended = false;
+    }
+
     /// Stops reading until [`Reader::rewind`].
     pub fn end(&mut self) {
         self.ended = true;
@@ -240,6 +252,7 @@ impl Reader {
         if let Some(frame) = self.calls.frames.last_mut() {
             frame.cursor = next;
             frame.begun = true;
+            self.command.frame = *frame;
         }
     }
 
@@ -385,6 +398,7 @@ impl Reader {
         self.command.finish = Finish::End(EndKind::Text);
         self.command.after = self.state;
         self.command.side = Side::Off;
+        self.command.frame = *frame;
         self.ended = true;
         Read::Command
     }
@@ -412,5 +426,6 @@ pub(crate) fn empty_command(state: &State) -> Command {
         plane: AxisSet::NONE,
         axis_words: [syntax::Extent::default(); AXES],
         absolute: AxisSet::NONE,
+        frame: Frame::default(),
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::colour::PAPER;
 use crate::label::{Anchor, Label};
 use crate::rect::Rect;
 use crate::text::escaped;
@@ -70,21 +71,14 @@ impl Canvas {
         let _ = writeln!(self.out, "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>", short(x), short(y), short(radius));
     }
 
+    /// A text in one colour on a patch of paper that keeps it readable over lines.
+    pub fn text_over_lines(&mut self, label: &Label, colour: &str) {
+        self.rect(&label.room().grown(2.0), &format!("rx=\"2\" fill=\"{PAPER}\" fill-opacity=\"0.85\""));
+        self.text(label, colour);
+    }
+
     /// A text in one colour.
     pub fn text(&mut self, label: &Label, colour: &str) {
-        self.write_text(label, colour, "");
-    }
-
-    /// A text in one colour with a white rim that keeps it readable over lines.
-    pub fn text_over_lines(&mut self, label: &Label, colour: &str) {
-        self.write_text(
-            label,
-            colour,
-            " stroke=\"#fff\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
-        );
-    }
-
-    fn write_text(&mut self, label: &Label, colour: &str, more: &str) {
         let anchor = match label.anchor {
             Anchor::Start => "",
             Anchor::Middle => " text-anchor=\"middle\"",
@@ -93,7 +87,7 @@ impl Canvas {
         let ([x, y], size) = (label.at.map(short), short(label.size));
         let _ = writeln!(
             self.out,
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{colour}\"{anchor}{more}>{}</text>",
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{colour}\"{anchor}>{}</text>",
             escaped(&label.text)
         );
     }

@@ -28,10 +28,14 @@ pub(crate) fn drop_covered(pieces: &mut Vec<Piece>, region: &Extent, cell_mm: f6
         plan.clear();
         isometric.clear();
         for (piece, needed) in pieces.iter().zip(&mut needed).filter(|(piece, _)| group(piece) == wanted) {
-            piece.for_each_line(cell_mm * 0.25, |from, to| {
-                *needed |= plan.mark(from, to);
-                *needed |= isometric.mark(from, to);
-            });
+            let lines = |line: &mut dyn FnMut([f64; 3], [f64; 3])| piece.for_each_line(cell_mm * 0.25, line);
+            lines(&mut |from, to| *needed = *needed || plan.is_new(from, to) || isometric.is_new(from, to));
+            if *needed {
+                lines(&mut |from, to| {
+                    plan.mark(from, to);
+                    isometric.mark(from, to);
+                });
+            }
         }
     }
     let mut index = 0;
@@ -63,27 +67,47 @@ impl Cells {
         self.bits.fill(0);
     }
 
-    /// Marks the cells along a line; true if one of them is new.
-    fn mark(&mut self, from: [f64; 3], to: [f64; 3]) -> bool {
-        let Some(part) = clip(&self.region, self.projection.flat(from), self.projection.flat(to)) else {
+    /// Marks the cells along a line.
+    fn mark(&mut self, from: [f64; 3], to: [f64; 3]) {
+        let Some((start, step, steps)) = self.walk(from, to) else {
+            return;
+        };
+        for nth in 0..=steps {
+            let cell = self.cell([0, 1].map(|axis| start[axis] + step[axis] * nth as f64));
+            if let Some(word) = self.bits.get_mut(cell / 64) {
+                *word |= 1 << (cell % 64);
+            }
+        }
+    }
+
+    /// True if somewhere along a line neither the cell nor the next nearest one, across or up, is marked.
+    fn is_new(&self, from: [f64; 3], to: [f64; 3]) -> bool {
+        let Some((start, step, steps)) = self.walk(from, to) else {
             return false;
         };
+        (0..=steps).any(|nth| {
+            let [x, y] = [0, 1].map(|axis| start[axis] + step[axis] * nth as f64);
+            let nearest = |at: f64| if at.fract() < 0.5 { at - 1.0 } else { at + 1.0 };
+            !self.is_marked([x, y]) && !self.is_marked([nearest(x), y]) && !self.is_marked([x, nearest(y)])
+        })
+    }
+
+    fn is_marked(&self, at: [f64; 2]) -> bool {
+        let cell = self.cell(at);
+        self.bits.get(cell / 64).is_some_and(|word| word >> (cell % 64) & 1 == 1)
+    }
+
+    fn cell(&self, [column, row]: [f64; 2]) -> usize {
+        row as usize * self.columns + (column as usize).min(self.columns - 1)
+    }
+
+    /// The part of a line in the region, in cells: where it starts, its steps of about a cell, and their number.
+    fn walk(&self, from: [f64; 3], to: [f64; 3]) -> Option<([f64; 2], [f64; 2], usize)> {
+        let part = clip(&self.region, self.projection.flat(from), self.projection.flat(to))?;
         let [start, end] =
             [part.from, part.to].map(|[x, y]| [(x - self.region.x) * self.per_mm, (y - self.region.y) * self.per_mm]);
         let steps = (end[0] - start[0]).abs().max((end[1] - start[1]).abs()).ceil().max(1.0);
-        let step = [(end[0] - start[0]) / steps, (end[1] - start[1]) / steps];
-        let mut new = false;
-        for nth in 0..=steps as usize {
-            let column = (start[0] + step[0] * nth as f64) as usize;
-            let row = (start[1] + step[1] * nth as f64) as usize;
-            let cell = row * self.columns + column.min(self.columns - 1);
-            if let Some(word) = self.bits.get_mut(cell / 64) {
-                let bit = 1 << (cell % 64);
-                new |= *word & bit == 0;
-                *word |= bit;
-            }
-        }
-        new
+        Some((start, [(end[0] - start[0]) / steps, (end[1] - start[1]) / steps], steps as usize))
     }
 }
 

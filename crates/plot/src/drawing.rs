@@ -63,7 +63,7 @@ impl Drawing {
         sheet(&Content {
             title: &self.title,
             survey: &self.survey,
-            pieces: &self.path.pieces(),
+            pieces: &self.path.pieces(&self.survey),
             marks: &self.marks,
             visible_error_mm: self.path.visible_error_mm(&self.survey),
         })

@@ -20,10 +20,8 @@ impl Extent {
 
     /// Widens the box to hold a point.
     pub fn include(&mut self, point: [f64; 3]) {
-        for axis in 0..3 {
-            self.min[axis] = self.min[axis].min(point[axis]);
-            self.max[axis] = self.max[axis].max(point[axis]);
-        }
+        self.min = std::array::from_fn(|axis| self.min[axis].min(point[axis]));
+        self.max = std::array::from_fn(|axis| self.max[axis].max(point[axis]));
     }
 
     /// Widens the box to hold another box.

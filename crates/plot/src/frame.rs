@@ -12,7 +12,7 @@ use crate::survey::Survey;
 const NEAR_PART: f64 = 0.25;
 
 /// A path that is nearly a point in plan is shown with this much around it, as a part of its extent.
-const LEAST_PLAN_PART: f64 = 0.3;
+const LEAST_PLAN_PART: f64 = 0.5;
 
 /// What is shown of a path without any extent, in mm.
 const POINT_MM: f64 = 10.0;

@@ -13,7 +13,7 @@ const TICK: f64 = 6.0;
 const NUMBER_AT: f64 = 13.0;
 
 /// Numbers stand at least so far apart along their axis: X, Y, Z.
-const APART: [f64; 3] = [54.0, 54.0, 26.0];
+const APART: [f64; 3] = [54.0, 54.0, 34.0];
 
 /// The length of the tripod's legs, and how far from the panel's sides it stands.
 const LEG: f64 = 34.0;
@@ -77,6 +77,11 @@ pub(crate) fn draw_isometric_axes(canvas: &mut Canvas, view: &View, frame: &Exte
             [x + ruler.outwards[0] * distance, y + ruler.outwards[1] * distance]
         };
         let ticks = ruler.ticks(view, frame);
+        // The name stands between two numbers.
+        let middle = match ticks.windows(2).nth(ticks.len().saturating_sub(2) / 2) {
+            Some([left, right]) => 0.5 * (left + right),
+            _ => 0.5 * (low + high),
+        };
         let mut widest: f64 = 0.0;
         for tick in ticks {
             canvas.line(out(tick, 0.0), out(tick, TICK));
@@ -84,7 +89,7 @@ pub(crate) fn draw_isometric_axes(canvas: &mut Canvas, view: &View, frame: &Exte
             widest = widest.max(number.room().width);
             numbers.push(number);
         }
-        names.push(name(&ruler, low, high, widest, &out));
+        names.push(name(&ruler, if ruler.axis == 2 { high } else { middle }, widest, &out));
     }
     canvas.close();
     for name in names {
@@ -98,13 +103,13 @@ pub(crate) fn draw_isometric_axes(canvas: &mut Canvas, view: &View, frame: &Exte
 }
 
 /// The name of an axis: beside the middle of X and Y, outside their numbers, and above the top of Z.
-fn name(ruler: &Ruler, low: f64, high: f64, widest: f64, out: &impl Fn(f64, f64) -> [f64; 2]) -> Label {
+fn name(ruler: &Ruler, at: f64, widest: f64, out: &impl Fn(f64, f64) -> [f64; 2]) -> Label {
     let text = ["X mm", "Y mm", "Z mm"][ruler.axis];
     if ruler.axis == 2 {
-        let [x, y] = out(high, 0.0);
+        let [x, y] = out(at, 0.0);
         return Label::new(text, [x, y - 10.0], AXIS_SIZE, Anchor::Middle);
     }
-    let [x, y] = out(0.5 * (low + high), NUMBER_AT);
+    let [x, y] = out(at, NUMBER_AT);
     let beyond = ruler.outwards[0].signum() * (widest + 12.0);
     Label::new(text, [x + beyond, y + 8.0], AXIS_SIZE, ruler.anchor).centred()
 }

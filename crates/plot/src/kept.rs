@@ -5,16 +5,20 @@
 //! does not help, visibly.
 
 use crate::cover::drop_covered;
+use crate::extent::Extent;
 use crate::feeds::Feeds;
 use crate::piece::Piece;
 use crate::simplify::{WINDOW, simplify};
 use crate::survey::Survey;
 
-/// The most pieces that are kept.
-pub(crate) const MOST_PIECES: usize = 150_000;
+/// The most segments that are kept, an arc counting for several.
+pub(crate) const MOST_SEGMENTS: usize = 150_000;
 
-/// A coarsening that leaves more than this is followed by the next.
-const ENOUGH_PIECES: usize = MOST_PIECES / 8 * 7;
+/// A coarsening is enough if it leaves at most so many. One that costs time makes more room, so that the next is far
+/// away, and one that can be seen even more.
+const ENOUGH: usize = MOST_SEGMENTS / 8 * 7;
+const ENOUGH_COVERED: usize = MOST_SEGMENTS / 4 * 3;
+const ENOUGH_VISIBLY: usize = MOST_SEGMENTS / 2;
 
 /// The tolerance in mm of a path that is not coarsened: a tenth of a micrometre joins what is collinear.
 const COLLINEAR_MM: f64 = 1e-4;
@@ -27,6 +31,9 @@ const FAITHFUL_PART: f64 = 1.0 / 6_000.0;
 /// The least size of a cell in which a second line is not drawn, as a part of the extent.
 const CELL_PART: f64 = 1.0 / 8_192.0;
 
+/// Looking for what is covered goes through at most so many cells: where lines are very long, cells are made larger.
+const MOST_CELLS: f64 = 4e7;
+
 /// The region in which the path is kept reaches so far beyond the cutting moves, as a part of the extent.
 const REACH_PART: f64 = 0.25;
 
@@ -37,7 +44,10 @@ pub(crate) struct KeptPath {
     /// The points of the growing chain; its kind and feed are those of the piece that began it.
     chain: Vec<[f64; 3]>,
     first_of_chain: Option<Piece>,
+    /// The segments of the pieces.
+    segments: usize,
     tolerance_mm: f64,
+    /// The size of the cells in which nothing is drawn twice; 0 as long as that was not needed.
     cell_mm: f64,
 }
 
@@ -48,6 +58,7 @@ impl KeptPath {
             pieces: Vec::new(),
             chain: Vec::with_capacity(WINDOW + 1),
             first_of_chain: None,
+            segments: 0,
             tolerance_mm: COLLINEAR_MM,
             cell_mm: 0.0,
         }
@@ -58,19 +69,24 @@ impl KeptPath {
         if piece.arc.is_some() {
             self.end_chain(survey);
             self.pieces.push(*piece);
+            self.segments += piece.segments();
         } else {
             self.lengthen_chain(piece, survey);
         }
-        if self.pieces.len() >= MOST_PIECES {
+        if self.segments >= MOST_SEGMENTS {
             self.coarsen(survey);
         }
     }
 
     /// Everything that is kept, in the order in which it came.
-    pub fn pieces(&self) -> Vec<Piece> {
+    pub fn pieces(&self, survey: &Survey) -> Vec<Piece> {
         let mut pieces = self.pieces.clone();
         if let Some(like) = &self.first_of_chain {
             put_chain(&self.chain, like, self.tolerance_mm, &mut pieces);
+        }
+        if self.cell_mm > 0.0 {
+            // What came after the last coarsening is thinned out like the rest, or it would look denser.
+            drop_covered(&mut pieces, &region(survey), self.cell_mm, &survey.feeds);
         }
         pieces
     }
@@ -95,10 +111,12 @@ impl KeptPath {
 
     fn end_chain(&mut self, survey: &Survey) {
         if let Some(like) = self.first_of_chain.take() {
+            let before = self.pieces.len();
             put_chain(&self.chain, &like, self.tolerance_mm, &mut self.pieces);
+            self.segments += self.pieces.len() - before;
         }
         self.chain.clear();
-        if self.pieces.len() >= MOST_PIECES {
+        if self.segments >= MOST_SEGMENTS {
             self.coarsen(survey);
         }
     }
@@ -109,19 +127,31 @@ impl KeptPath {
         while let Some(tolerance_mm) = self.next_hidden_tolerance(span) {
             self.tolerance_mm = tolerance_mm;
             self.simplify_again(&survey.feeds);
-            if self.pieces.len() <= ENOUGH_PIECES {
+            if self.segments <= ENOUGH {
                 return;
             }
         }
-        let region = survey.subject().grown(span * REACH_PART);
-        self.cell_mm = self.cell_mm.max(libm::exp2(libm::log2(span * CELL_PART).ceil()));
-        drop_covered(&mut self.pieces, &region, self.cell_mm, &survey.feeds);
-        while self.pieces.len() > ENOUGH_PIECES {
+        let length: f64 = self.pieces.iter().map(|piece| piece.length_mm().min(span)).sum();
+        let least = (span * CELL_PART).max(length / MOST_CELLS);
+        self.cell_mm = self.cell_mm.max(libm::exp2(libm::log2(least).ceil()));
+        self.leave_out_covered(survey);
+        let mut enough = ENOUGH_COVERED;
+        while self.segments > enough {
+            enough = ENOUGH_VISIBLY;
             self.tolerance_mm *= 2.0;
             self.cell_mm *= 2.0;
             self.simplify_again(&survey.feeds);
-            drop_covered(&mut self.pieces, &region, self.cell_mm, &survey.feeds);
+            self.leave_out_covered(survey);
         }
+    }
+
+    fn leave_out_covered(&mut self, survey: &Survey) {
+        drop_covered(&mut self.pieces, &region(survey), self.cell_mm, &survey.feeds);
+        self.count();
+    }
+
+    fn count(&mut self) {
+        self.segments = self.pieces.iter().map(Piece::segments).sum();
     }
 
     /// The next greater tolerance, if it is worth a pass and the sheet does not show it.
@@ -132,7 +162,7 @@ impl KeptPath {
 
     /// Joins what is kept with the present tolerance: small arcs become chords, chains lose points.
     fn simplify_again(&mut self, feeds: &Feeds) {
-        let mut fewer: Vec<Piece> = Vec::with_capacity(MOST_PIECES);
+        let mut fewer: Vec<Piece> = Vec::with_capacity(self.pieces.len());
         let mut like: Option<Piece> = None;
         let mut chain: Vec<[f64; 3]> = Vec::new();
         for mut piece in self.pieces.drain(..) {
@@ -160,7 +190,13 @@ impl KeptPath {
             put_chain(&chain, &like, self.tolerance_mm, &mut fewer);
         }
         self.pieces = fewer;
+        self.count();
     }
+}
+
+/// Where the path is kept when lines are left out.
+fn region(survey: &Survey) -> Extent {
+    survey.subject().grown(survey.subject().span() * REACH_PART)
 }
 
 /// True if the second piece is drawn in the first one's way.

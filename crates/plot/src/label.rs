@@ -67,12 +67,17 @@ impl Places {
         self.taken.push(rect);
     }
 
+    /// True if nothing stands in the label's place.
+    pub fn is_free(&self, label: &Label) -> bool {
+        let room = label.room().grown(GAP);
+        !self.taken.iter().any(|taken| taken.overlaps(&room))
+    }
+
     /// Takes the label's place if it is free; true if it was.
     pub fn try_take(&mut self, label: &Label) -> bool {
-        let room = label.room();
-        let free = !self.taken.iter().any(|taken| taken.overlaps(&room.grown(GAP)));
+        let free = self.is_free(label);
         if free {
-            self.taken.push(room);
+            self.taken.push(label.room());
         }
         free
     }

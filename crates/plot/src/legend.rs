@@ -8,7 +8,7 @@ use crate::mark::MarkKind;
 use crate::palette::Palette;
 use crate::rect::Rect;
 use crate::scale::{Step, written};
-use crate::sign::{draw_hole, draw_sign};
+use crate::sign::{draw_sign, hole_path};
 use crate::text::width;
 
 const SIZE: f64 = 14.0;
@@ -122,9 +122,7 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Pa
             canvas.close();
         }
         Entry::Hole => {
-            canvas.open(&format!("stroke=\"{INK}\" stroke-width=\"1.4\""));
-            draw_hole(canvas, middle, 5.0);
-            canvas.close();
+            canvas.path(&hole_path(middle, 5.0), &format!("stroke=\"{INK}\" stroke-width=\"1.4\""));
         }
         Entry::Sign(kind) => draw_sign(canvas, *kind, middle),
         Entry::Scale => return draw_scale(canvas, [x, y], palette),

@@ -10,6 +10,7 @@ mod canvas;
 mod clip;
 mod colour;
 mod cover;
+mod dash;
 mod drawing;
 mod extent;
 mod feeds;

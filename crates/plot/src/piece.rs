@@ -1,6 +1,7 @@
 //! One kept part of the path: a straight segment or an arc, as small as it can be stored.
 
 use crate::arc::Curve;
+use crate::extent::Extent;
 use crate::stroke::{Arc, Kind};
 
 /// A part of the path that is drawn.
@@ -28,13 +29,33 @@ impl Piece {
         let Some(curve) = self.curve() else {
             return line(self.from, self.to);
         };
-        let steps = curve.steps(tolerance_mm);
         let mut last = self.from;
-        for step in 1..=steps {
-            let next = if step == steps { self.to } else { curve.at(step as f64 / steps as f64) };
+        curve.for_each_inner(curve.steps(tolerance_mm), |next| {
             line(last, next);
             last = next;
+        });
+        line(last, self.to);
+    }
+
+    /// The length of the path in mm.
+    pub fn length_mm(&self) -> f64 {
+        self.curve().map_or_else(|| distance(self.from, self.to), |curve| curve.length_mm())
+    }
+
+    /// The box around the piece.
+    pub fn extent(&self) -> Extent {
+        if let Some(curve) = self.curve() {
+            return curve.extent(self.from, self.to);
         }
+        let mut extent = Extent::EMPTY;
+        extent.include(self.from);
+        extent.include(self.to);
+        extent
+    }
+
+    /// How many segments the piece counts for when it is drawn: an arc takes about two for each third of a turn.
+    pub fn segments(&self) -> usize {
+        self.arc.map_or(1, |arc| 2 + 2 * (arc.sweep_deg.abs() / 120.0).min(3.0) as usize)
     }
 }
 

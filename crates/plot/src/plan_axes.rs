@@ -40,8 +40,8 @@ pub(crate) fn draw_plan_axes(canvas: &mut Canvas, view: &View, places: &mut Plac
     let [xs, ys] = ticks(view);
     canvas.open(&format!("stroke=\"{AXIS}\" stroke-width=\"1\""));
     canvas.rect(&panel, "");
-    let x_name = Label::new("X mm", [panel.right(), panel.bottom() + 21.0], AXIS_SIZE, Anchor::End);
-    let y_name = Label::new("Y mm", [panel.x - TICK - 4.0, panel.y + 4.0], AXIS_SIZE, Anchor::End).centred();
+    let x_name = Label::new("X mm", [panel.x - TICK - 4.0, panel.bottom() + 21.0], AXIS_SIZE, Anchor::End);
+    let y_name = Label::new("Y mm", [panel.x - TICK - 4.0, panel.y - 13.0], AXIS_SIZE, Anchor::End);
     let mut numbers = Vec::new();
     for x in xs {
         let at = view.place([x, 0.0, 0.0])[0];

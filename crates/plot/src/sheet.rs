@@ -6,6 +6,7 @@ use crate::drawing::Title;
 use crate::extent::Extent;
 use crate::frame::frame;
 use crate::hole::{DownCut, down_cuts};
+use crate::ink::Ink;
 use crate::isometric_axes::{draw_isometric_axes, draw_isometric_floor};
 use crate::label::{Anchor, Label, Places};
 use crate::layout::{ISOMETRIC_INSET, Layout, MARGIN, PLAN_INSET, SHEET_WIDTH, layout};
@@ -27,7 +28,7 @@ use crate::view::{Projection, View};
 const TITLE_SIZE: f64 = 26.0;
 const SUBTITLE_SIZE: f64 = 16.0;
 const FACTS_SIZE: f64 = 15.0;
-const HEADING_SIZE: f64 = 14.0;
+const HEADING_SIZE: f64 = 15.0;
 const NOTE_SIZE: f64 = 14.0;
 const NOTE_ROW: f64 = 22.0;
 
@@ -121,11 +122,12 @@ fn facts(survey: &Survey) -> String {
         .map(|(axis, name)| format!("{name} {}", written_range(subject.min[axis], subject.max[axis])))
         .collect();
     let what = if survey.cutting.is_empty() { "rapids" } else { "cutting" };
-    let mut parts = vec![
-        format!("{what}  {} mm", axes.join("   ")),
-        format!("cutting path {}", written_length(survey.cutting_mm)),
-        format!("rapids {}", written_length(survey.rapid_mm)),
-    ];
+    let mut parts = vec![format!("{what}  {} mm", axes.join("   "))];
+    for (name, length_mm) in [("cutting path", survey.cutting_mm), ("rapid path", survey.rapid_mm)] {
+        if length_mm > 0.0 {
+            parts.push(format!("{name} {}", written_length(length_mm)));
+        }
+    }
     let tools = survey.tools.len();
     if tools > MOST_NAMED_TOOLS {
         parts.push(format!("{tools} tools"));
@@ -137,26 +139,28 @@ fn facts(survey: &Survey) -> String {
 
 fn draw_headings(canvas: &mut Canvas, layout: &Layout) {
     for (panel, text) in [(layout.plan, "Plan"), (layout.isometric, "Isometric")] {
-        canvas.text(&Label::new(text, [panel.x, panel.y - 12.0], HEADING_SIZE, Anchor::Start), INK);
+        canvas.text(&Label::new(text, [panel.middle()[0], panel.y - 13.0], HEADING_SIZE, Anchor::Middle), INK);
     }
 }
 
 fn draw_plan(canvas: &mut Canvas, view: &View, content: &Content, palette: &Palette, cuts: &[DownCut]) {
     let mut places = Places::default();
     draw_plan_grid(canvas, view);
-    draw_strokes(canvas, view, content.pieces, palette);
+    let ink = Ink::measure(view, content.pieces);
+    draw_strokes(canvas, view, content.pieces, palette, &ink);
     draw_down_cuts(canvas, view, cuts, palette, &mut places);
     draw_plan_axes(canvas, view, &mut places);
-    draw_marks(canvas, view, content.marks, &mut places);
+    draw_marks(canvas, view, content.marks, &ink, &mut places);
 }
 
 fn draw_isometric(canvas: &mut Canvas, view: &View, content: &Content, palette: &Palette, frame: &Extent) {
     let mut places = Places::default();
     canvas.rect(&view.panel, &format!("stroke=\"{GRID}\" stroke-width=\"1\""));
     draw_isometric_floor(canvas, view, frame);
-    draw_strokes(canvas, view, content.pieces, palette);
+    let ink = Ink::measure(view, content.pieces);
+    draw_strokes(canvas, view, content.pieces, palette, &ink);
     draw_isometric_axes(canvas, view, frame, &mut places);
-    draw_marks(canvas, view, content.marks, &mut places);
+    draw_marks(canvas, view, content.marks, &ink, &mut places);
 }
 
 fn entries(content: &Content, views: &Views, palette: &Palette, cuts: &[DownCut]) -> Vec<Entry> {

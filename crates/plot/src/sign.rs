@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::canvas::{Canvas, short};
 use crate::colour::{ALARM, INK, PAPER};
+use crate::ink::Ink;
 use crate::label::{Anchor, Label, Places};
 use crate::mark::{Mark, MarkKind};
 use crate::rect::Rect;
@@ -60,16 +61,17 @@ pub(crate) fn draw_sign(canvas: &mut Canvas, kind: MarkKind, at: [f64; 2]) {
     }
 }
 
-/// Draws the sign of a drilled hole: a circle with its centre lines.
-pub(crate) fn draw_hole(canvas: &mut Canvas, [x, y]: [f64; 2], radius: f64) {
-    canvas.circle([x, y], radius);
+/// The path of a drilled hole's sign: a circle with its centre lines.
+pub(crate) fn hole_path([x, y]: [f64; 2], radius: f64) -> String {
     let reach = radius * 1.7;
-    canvas.line([x - reach, y], [x + reach, y]);
-    canvas.line([x, y - reach], [x, y + reach]);
+    let [left, top, x, y, start] = [x - reach, y - reach, x, y, x - radius].map(short);
+    let [radius, across, reach] = [radius, 2.0 * radius, 2.0 * reach].map(short);
+    let half = format!("a{radius} {radius} 0 1 1");
+    format!("M{start} {y}{half} {across} 0{half}-{across} 0zM{left} {y}h{reach}M{x} {top}v{reach}")
 }
 
 /// Draws the marks that a view shows, first every sign, then the labels that find room.
-pub(crate) fn draw_marks(canvas: &mut Canvas, view: &View, marks: &[Mark], places: &mut Places) {
+pub(crate) fn draw_marks(canvas: &mut Canvas, view: &View, marks: &[Mark], ink: &Ink, places: &mut Places) {
     let mut groups: BTreeMap<[i64; 2], Vec<&Mark>> = BTreeMap::new();
     for mark in marks.iter().filter(|mark| view.shows(mark.at)) {
         groups.entry(view.place(mark.at).map(|at| (at / TOGETHER).round() as i64)).or_default().push(mark);
@@ -87,15 +89,22 @@ pub(crate) fn draw_marks(canvas: &mut Canvas, view: &View, marks: &[Mark], place
     }
     for group in groups.iter().rev() {
         if let (Some(kind), Some(first)) = (importance(group), group.first()) {
-            let colour = if kind == MarkKind::Alarm { ALARM } else { INK };
             let around = labels_around(view.place(first.at), &names(group));
-            let free =
-                around.into_iter().find(|label| view.panel.grown(-3.0).holds(&label.room()) && places.try_take(label));
-            if let Some(label) = free {
-                canvas.text_over_lines(&label, colour);
+            if let Some(label) = best_place(around, view, ink, places, kind == MarkKind::Alarm) {
+                places.take(label.room());
+                canvas.text_over_lines(&label, if kind == MarkKind::Alarm { ALARM } else { INK });
             }
         }
     }
+}
+
+/// The place where a label hides the least of the path. One that must be seen is placed even over other signs.
+fn best_place(around: Vec<Label>, view: &View, ink: &Ink, places: &Places, must_be_seen: bool) -> Option<Label> {
+    let inside: Vec<Label> = around.into_iter().filter(|label| view.panel.grown(-4.0).holds(&label.room())).collect();
+    let hidden = |(rank, label): &(usize, &Label)| 2 * ink.under(&label.room()) + rank;
+    let free = inside.iter().enumerate().filter(|(_, label)| places.is_free(label)).min_by_key(hidden);
+    let any = || inside.iter().enumerate().min_by_key(hidden).filter(|_| must_be_seen);
+    free.or_else(any).map(|(_, label)| label.clone())
 }
 
 /// The distinct labels of marks that share a sign.

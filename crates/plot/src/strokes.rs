@@ -6,25 +6,32 @@ use crate::arc::Curve;
 use crate::canvas::{Canvas, short};
 use crate::clip::Clipped;
 use crate::colour::{PAPER, RAPID, hex};
+use crate::dash::dash;
 use crate::hole::DownCut;
-use crate::ink::{Weights, weights};
+use crate::ink::Ink;
 use crate::label::Places;
 use crate::palette::Palette;
 use crate::path_data::PathData;
 use crate::piece::Piece;
 use crate::rect::Rect;
-use crate::sign::draw_hole;
+use crate::sign::hole_path;
 use crate::stroke::Kind;
-use crate::view::View;
+use crate::view::{Projection, View};
 
 /// How far chords stand off an arc, in sheet units, unless that makes too many.
 const CHORD: f64 = 0.08;
+
+/// A difference in sheet units that is hardly seen however much the picture is enlarged.
+const HARDLY: f64 = 0.02;
 
 /// All arcs together are cut into about so many chords at most.
 const MOST_CHORDS: usize = 200_000;
 
 /// An arc is drawn in parts of less than a third of a turn: longer ones are ill-conditioned in SVG.
 const PART_RAD: f64 = 2.0;
+
+/// Rapids longer than this in all, in sheet units, are so close that dashes could not be told apart: they are solid.
+const MOST_DASHED: f64 = 60_000.0;
 
 /// The size of an arrow at the panel's side, and how near two arrows may be, in sheet units.
 const ARROW: [f64; 2] = [9.0, 3.2];
@@ -35,9 +42,8 @@ const HOLE: [f64; 2] = [5.0, 1.0];
 const PLUNGE: f64 = 1.9;
 
 /// Draws the path.
-pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], palette: &Palette) {
-    let weights = weights(view, pieces);
-    draw_rapids(canvas, view, pieces, &weights);
+pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], palette: &Palette, ink: &Ink) {
+    draw_rapids(canvas, view, pieces, ink);
     let tolerance_mm = chord_tolerance(view, pieces);
     let mut paths = vec![PathData::default(); palette.shades()];
     for piece in pieces.iter().filter(|piece| piece.kind == Kind::Feed) {
@@ -45,7 +51,7 @@ pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], p
             draw_feed(path, view, piece, tolerance_mm);
         }
     }
-    let width = short(weights.feed);
+    let width = short(ink.feed_weight);
     canvas.open(&format!("stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\""));
     // The slow feeds lie on top: they are few, and dark.
     for (shade, path) in paths.into_iter().enumerate().rev() {
@@ -60,14 +66,17 @@ pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], p
 }
 
 fn draw_feed(path: &mut PathData, view: &View, piece: &Piece, tolerance_mm: f64) {
-    if let Some(curve) = piece.curve() {
-        let flat_enough = 0.02 / view.scale;
-        let is_ellipse = view.projection == crate::view::Projection::Plan || curve.is_flat();
-        if is_ellipse && curve.is_round_in_plan(flat_enough) && curve.bend_mm() > flat_enough {
-            return draw_ellipse(path, view, piece, &curve);
-        }
+    match piece.curve().filter(|curve| is_ellipse(view, curve)) {
+        Some(curve) => draw_ellipse(path, view, piece, &curve),
+        None => piece.for_each_line(tolerance_mm, |from, to| path.line(view.place(from), view.place(to))),
     }
-    piece.for_each_line(tolerance_mm, |from, to| path.line(view.place(from), view.place(to)));
+}
+
+/// True if the view shows the arc as part of an upright ellipse that is more than a line.
+fn is_ellipse(view: &View, curve: &Curve) -> bool {
+    let hardly_mm = HARDLY / view.scale;
+    let flat = view.projection == Projection::Plan || curve.is_flat();
+    flat && curve.is_round_in_plan(hardly_mm) && curve.bend_mm() > hardly_mm
 }
 
 /// Draws an arc in the XY plane exactly; of several turns on top of each other, one.
@@ -87,12 +96,11 @@ fn draw_ellipse(path: &mut PathData, view: &View, piece: &Piece, curve: &Curve) 
 /// The chord tolerance in mm with which all arcs of the path stay a bounded number of chords.
 fn chord_tolerance(view: &View, pieces: &[Piece]) -> f64 {
     let mut tolerance_mm = CHORD / view.scale;
-    let chords = |tolerance_mm: f64| -> usize {
-        pieces.iter().filter_map(Piece::curve).map(|curve| curve.steps(tolerance_mm)).sum()
-    };
-    let least = pieces.iter().filter(|piece| piece.arc.is_some()).count();
+    let flattened: Vec<Curve> =
+        pieces.iter().filter_map(Piece::curve).filter(|curve| !is_ellipse(view, curve)).collect();
     for _ in 0..8 {
-        if chords(tolerance_mm) <= MOST_CHORDS + least {
+        let chords: usize = flattened.iter().map(|curve| curve.steps(tolerance_mm)).sum();
+        if chords <= MOST_CHORDS {
             break;
         }
         tolerance_mm *= 2.0;
@@ -100,19 +108,31 @@ fn chord_tolerance(view: &View, pieces: &[Piece]) -> f64 {
     tolerance_mm
 }
 
-fn draw_rapids(canvas: &mut Canvas, view: &View, pieces: &[Piece], weights: &Weights) {
-    let mut path = PathData::default();
+fn draw_rapids(canvas: &mut Canvas, view: &View, pieces: &[Piece], ink: &Ink) {
+    let mut lines = Vec::new();
+    let mut drawn = BTreeSet::new();
     let mut arrows = Arrows::default();
+    let mut length = 0.0;
     for piece in pieces.iter().filter(|piece| piece.kind == Kind::Rapid) {
         piece.for_each_line(CHORD / view.scale, |from, to| {
-            if let Some(part) = view.line(from, to) {
-                path.line(part.from, part.to);
-                arrows.note(&part);
+            let Some(part) = view.line(from, to) else {
+                return;
+            };
+            arrows.note(&part);
+            // Out and back on the same line is one line.
+            let [from, to] = [part.from, part.to].map(|end| end.map(|at| (at * 20.0).round() as i64));
+            if from != to && drawn.insert([from.min(to), from.max(to)]) {
+                length += libm::hypot(part.to[0] - part.from[0], part.to[1] - part.from[1]);
+                lines.push((part.from, part.to));
             }
         });
     }
-    let dashes = if weights.dashed { " stroke-dasharray=\"6 4\"" } else { "" };
-    canvas.open(&format!("stroke=\"{RAPID}\" stroke-width=\"{}\"{dashes}", short(weights.rapid)));
+    let mut path = PathData::default();
+    let draw = if length > MOST_DASHED { PathData::line } else { dash };
+    for (from, to) in lines {
+        draw(&mut path, from, to);
+    }
+    canvas.open(&format!("stroke=\"{RAPID}\" stroke-width=\"{}\"", short(ink.rapid_weight)));
     path.finish().iter().for_each(|d| canvas.path(d, ""));
     canvas.close();
     if !arrows.d.is_empty() {
@@ -178,17 +198,17 @@ pub(crate) fn draw_down_cuts(
             canvas.circle(*at, PLUNGE.min(radius));
         }
         canvas.close();
-        canvas.open(&format!(
-            "fill=\"{PAPER}\" stroke=\"{colour}\" stroke-width=\"{}\"",
-            short((radius * 0.28).max(0.3))
-        ));
+        let mut holes = String::new();
         for (_, at) in of_shade().filter(|(cut, _)| cut.is_hole) {
-            draw_hole(canvas, *at, radius);
+            holes.push_str(&hole_path(*at, radius));
             if radius > 2.0 {
                 places.take(Rect { x: at[0], y: at[1], width: 0.0, height: 0.0 }.grown(radius));
             }
         }
-        canvas.close();
+        if !holes.is_empty() {
+            let weight = short((radius * 0.28).max(0.3));
+            canvas.path(&holes, &format!("fill=\"{PAPER}\" stroke=\"{colour}\" stroke-width=\"{weight}\""));
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::extent::Extent;
 use crate::feeds::Feeds;
-use crate::piece::{Piece, distance};
+use crate::piece::Piece;
 use crate::stroke::Kind;
 
 /// More tools than this are not listed.
@@ -44,15 +44,8 @@ impl Survey {
 
     /// Takes note of a piece.
     pub fn note(&mut self, piece: &Piece, tool: u32) {
-        let (length, extent) = match piece.curve() {
-            Some(curve) => (curve.length_mm(), curve.extent(piece.from, piece.to)),
-            None => {
-                let mut extent = Extent::EMPTY;
-                extent.include(piece.from);
-                extent.include(piece.to);
-                (distance(piece.from, piece.to), extent)
-            }
-        };
+        let length = piece.length_mm();
+        let extent = piece.extent();
         self.all.include_extent(&extent);
         match piece.kind {
             Kind::Rapid => self.rapid_mm += length,

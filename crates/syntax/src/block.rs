@@ -15,6 +15,12 @@ pub struct Cursor {
     pub skipping: bool,
 }
 
+impl Default for Cursor {
+    fn default() -> Self {
+        Cursor::HEAD
+    }
+}
+
 impl Cursor {
     /// The head of a text.
     pub const HEAD: Cursor = Cursor { offset: 0, line: 1, line_start: 0, skipping: false };

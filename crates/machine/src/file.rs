@@ -1,0 +1,395 @@
+//! The machine builder's file: axes, limits, what codes do and when, wiring.
+//!
+//! `name` and each axis' `kind` and `travel` are required; any other missing key has its default.
+
+use base::{AXES, AxisSet, Point, Seconds};
+use data::{DataError, Document, Table};
+use include_dir::{Dir, include_dir};
+use meaning::{AxisFacts, CodeLine, CodeRules, MachineFacts};
+use motion::{AxisLimits, Limits};
+
+use crate::travel::Travel;
+
+static MACHINES: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../machines");
+
+/// The text of a machine that comes with the program, with its file name.
+pub fn builtin_machine(name: &str) -> Option<(String, &'static str)> {
+    let file = format!("{name}.toml");
+    let text = MACHINES.get_file(&file)?.contents_utf8()?;
+    Some((format!("machines/{file}"), text))
+}
+
+/// The names of the machines that come with the program.
+pub fn builtin_machines() -> impl Iterator<Item = &'static str> {
+    MACHINES.files().filter_map(|file| file.path().file_stem()?.to_str())
+}
+
+/// Times until the machine answers a code.
+#[derive(Clone, PartialEq, Debug)]
+pub struct CodeTimes {
+    single: Vec<(CodeLine, Option<u32>, Seconds)>,
+    other: Seconds,
+}
+
+impl CodeTimes {
+    /// The time from a code to its answer.
+    pub fn of(&self, line: CodeLine, code: u32) -> Seconds {
+        let fits = |entry: &&(CodeLine, Option<u32>, Seconds)| entry.0 == line && entry.1.is_none_or(|own| own == code);
+        let exact = self.single.iter().find(|entry| entry.1.is_some() && fits(entry));
+        exact.or_else(|| self.single.iter().find(fits)).map_or(self.other, |entry| entry.2)
+    }
+}
+
+/// Contacts that the control reads, as the builder wired them: which decoded lines drive them.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Wiring {
+    /// Internal reset input.
+    pub eop: Vec<String>,
+    /// Rewind input.
+    pub rwd: Vec<String>,
+}
+
+/// One axis as the builder made it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct MachineAxis {
+    /// Its letter.
+    pub letter: u8,
+    /// True if it turns.
+    pub rotary: bool,
+    /// Lowest and highest machine coordinate, mm or degrees.
+    pub travel: [f64; 2],
+    /// Rapid rate, mm/min.
+    pub rapid: f64,
+    /// Highest cutting feed, mm/min.
+    pub max_feed: f64,
+    /// Acceleration, mm/s².
+    pub acceleration: f64,
+    /// Reference points 1 to 4, machine coordinates.
+    pub reference_points: [f64; 4],
+    /// Signed distance of positioning from one side.
+    pub approach: f64,
+}
+
+/// A machine.
+#[derive(Clone, PartialEq, Debug)]
+pub struct MachineFile {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub description: String,
+    /// Its axes in their order.
+    pub axes: Vec<MachineAxis>,
+    /// True if rapid positioning runs in a straight line.
+    pub straight_rapid: bool,
+    /// True if B is an axis and there is no B function.
+    pub b_axis: bool,
+    /// How codes go out.
+    pub codes: CodeRules,
+    /// Times until codes are answered.
+    pub times: CodeTimes,
+    /// What is wired to the control's inputs.
+    pub wiring: Wiring,
+}
+
+impl MachineFile {
+    /// The machine as programs see it.
+    pub fn facts(&self) -> MachineFacts {
+        let counts = |mm: f64| (mm * 1e6).round();
+        let axes = self.axes.iter().map(|axis| AxisFacts {
+            letter: axis.letter,
+            rotary: axis.rotary,
+            reference_points: axis.reference_points.map(counts),
+            approach: counts(axis.approach),
+        });
+        MachineFacts { axes: axes.collect(), codes: self.codes.clone() }
+    }
+
+    /// The machine as motion sees it.
+    pub fn limits(&self) -> Limits {
+        let mut axes = [AxisLimits { rapid: 0.0, max_feed: 0.0, acceleration: 0.0 }; AXES];
+        for (limits, axis) in axes.iter_mut().zip(&self.axes) {
+            let acceleration = axis.acceleration;
+            *limits = AxisLimits { rapid: axis.rapid / 60.0, max_feed: axis.max_feed / 60.0, acceleration };
+        }
+        Limits { axes, count: self.axes.len(), straight_rapid: self.straight_rapid }
+    }
+
+    /// The limits of travel.
+    pub fn travel(&self) -> Travel {
+        let mut travel = Travel { low: [0.0; AXES], high: [0.0; AXES], axes: AxisSet::NONE };
+        for (index, axis) in self.axes.iter().enumerate() {
+            travel.low[index] = axis.travel[0];
+            travel.high[index] = axis.travel[1];
+            travel.axes.add(index);
+        }
+        travel
+    }
+
+    /// The rapid rates, mm/min, as a point.
+    pub fn rapid_rates(&self) -> Point {
+        let mut rates = [0.0; AXES];
+        for (rate, axis) in rates.iter_mut().zip(&self.axes) {
+            *rate = axis.rapid;
+        }
+        rates
+    }
+}
+
+/// Reads a machine file.
+///
+/// # Errors
+/// Every error of the file, each naming its line and key.
+pub fn read_machine(file: &str, text: &str) -> Result<MachineFile, Vec<DataError>> {
+    Document::read(file, text, machine)
+}
+
+fn machine(root: &mut Table) -> MachineFile {
+    let name = root.required_string("name");
+    let description = root.string("description").unwrap_or_default();
+    root.require("axes");
+    let axes = root.table("axes", axes).unwrap_or_default();
+    let path = root.table("path", path);
+    root.table("spindle", spindle);
+    let functions = root.table("functions", |t| functions(t, &axes));
+    let wiring = root.table("wiring", |t| Wiring {
+        eop: t.strings("EOP").unwrap_or_else(default_eop),
+        rwd: t.strings("RWD").unwrap_or_else(default_rwd),
+    });
+    root.table("magazine", |t| t.integer("pockets"));
+    let Functions { codes, times, b_axis } = match functions {
+        Some(functions) => functions,
+        None => default_functions(root, &axes),
+    };
+    MachineFile {
+        name,
+        description,
+        axes,
+        straight_rapid: path.unwrap_or(false),
+        b_axis,
+        codes,
+        times,
+        wiring: wiring.unwrap_or_else(|| Wiring { eop: default_eop(), rwd: default_rwd() }),
+    }
+}
+
+fn default_eop() -> Vec<String> {
+    vec!["M02R".to_owned(), "M30R".to_owned()]
+}
+
+fn default_rwd() -> Vec<String> {
+    vec!["M30R".to_owned()]
+}
+
+fn axes(table: &mut Table) -> Vec<MachineAxis> {
+    let mut axes = Vec::new();
+    for entry in table.rest() {
+        let letter = match entry.key.as_bytes() {
+            [letter @ (b'A'..=b'C' | b'U'..=b'Z')] => *letter,
+            _ => {
+                entry.error(format!("`{}` is no axis letter; axes are X Y Z A B C U V W", entry.key));
+                continue;
+            }
+        };
+        if let Some(axis) = entry.table(|t| axis(t, letter)) {
+            axes.push(axis);
+        }
+    }
+    if axes.is_empty() || axes.len() > AXES {
+        table.error_here(format!("a machine has 1 to {AXES} axes"));
+        axes.truncate(AXES);
+    }
+    axes
+}
+
+fn axis(table: &mut Table, letter: u8) -> MachineAxis {
+    table.require("kind");
+    table.require("travel");
+    let travel_place = table.place_of("travel");
+    let travel = match table.numbers("travel").as_deref() {
+        Some(&[low, high]) if low < high => [low, high],
+        Some(_) => {
+            table.error(travel_place.unwrap_or_default(), "travel is a list of two numbers, the lowest first");
+            [0.0, 0.0]
+        }
+        None => [0.0, 0.0],
+    };
+    let points_place = table.place_of("reference_points");
+    let reference_points = match table.numbers("reference_points").as_deref() {
+        None => [0.0; 4],
+        Some(&[first, second, third, fourth]) => [first, second, third, fourth],
+        Some(_) => {
+            table.error(points_place.unwrap_or_default(), "reference_points is a list of four numbers");
+            [0.0; 4]
+        }
+    };
+    let kind = table.choice("kind", &[("linear", false), ("rotary", true)]);
+    let rapid = positive(table, "rapid", 12_000.0);
+    let max_feed = positive(table, "max_feed", 6000.0);
+    let acceleration = positive(table, "acceleration", 500.0);
+    table.number("jerk");
+    MachineAxis {
+        letter,
+        rotary: kind.unwrap_or(false),
+        travel,
+        rapid,
+        max_feed,
+        acceleration,
+        reference_points,
+        approach: table.number("approach").unwrap_or(0.0),
+    }
+}
+
+fn positive(table: &mut Table, key: &'static str, default: f64) -> f64 {
+    let place = table.place_of(key);
+    match (table.number(key), place) {
+        (Some(value), Some(place)) if value <= 0.0 => {
+            table.error(place, format!("{key} must be greater than zero"));
+            default
+        }
+        (value, _) => value.unwrap_or(default),
+    }
+}
+
+/// Reads `[path]`; of it only `straight_rapid` acts before motion looks ahead.
+fn path(table: &mut Table) -> bool {
+    let place = table.place_of("model");
+    let model = table.choice("model", &[("trapezoid", true), ("jerk", false), ("classic", false)]);
+    if let (Some(false), Some(place)) = (model, place) {
+        table.error(place, "this path model is not built yet; use model = \"trapezoid\"");
+    }
+    for key in ["corner_tolerance", "servo_period", "block_time"] {
+        table.number(key);
+    }
+    table.table("time_constant", |t| {
+        t.number("rapid");
+        t.number("feed");
+    });
+    table.boolean("straight_rapid").unwrap_or(false)
+}
+
+fn spindle(table: &mut Table) {
+    table.number("max_rpm");
+    table.number("acceleration_time");
+    table.choice("tapping", &[("float", ()), ("rigid", ())]);
+}
+
+struct Functions {
+    codes: CodeRules,
+    times: CodeTimes,
+    b_axis: bool,
+}
+
+fn default_functions(root: &Table, axes: &[MachineAxis]) -> Functions {
+    check_b(root, axes, false);
+    Functions { codes: code_rules(), times: CodeTimes { single: default_times(), other: Seconds(0.05) }, b_axis: false }
+}
+
+fn code_rules() -> CodeRules {
+    CodeRules { digits: [2, 4, 2, 3], m_after_motion: vec![5, 6, 9], b_after_motion: false }
+}
+
+fn default_times() -> Vec<(CodeLine, Option<u32>, Seconds)> {
+    vec![(CodeLine::M, Some(6), Seconds(4.0)), (CodeLine::B, None, Seconds(1.5))]
+}
+
+fn check_b(table: &Table, axes: &[MachineAxis], b_axis: bool) {
+    let has_b = axes.iter().any(|axis| axis.letter == b'B');
+    if has_b && !b_axis {
+        table.error_here("a B axis and the B function exclude each other; with [axes.B] set b_axis = true");
+    }
+    if b_axis && !has_b {
+        table.error_here("b_axis = true wants an [axes.B]");
+    }
+}
+
+fn functions(table: &mut Table, axes: &[MachineAxis]) -> Functions {
+    let b_axis = table.boolean("b_axis").unwrap_or(false);
+    check_b(table, axes, b_axis);
+    let mut codes = code_rules();
+    for (slot, key) in
+        codes.digits.iter_mut().zip(["m_output_digits", "s_output_digits", "t_output_digits", "b_output_digits"])
+    {
+        let place = table.place_of(key);
+        if let (Some(digits), Some(place)) = (table.integer(key), place) {
+            match u8::try_from(digits) {
+                Ok(digits @ 1..=8) => *slot = digits,
+                _ => table.error(place, format!("{key} is a number from 1 to 8")),
+            }
+        }
+    }
+    if let Some(list) = table.integers("after_motion") {
+        codes.m_after_motion = list.into_iter().filter_map(|code| u32::try_from(code).ok()).collect();
+    }
+    codes.b_after_motion = table.boolean("b_after_motion").unwrap_or(false);
+    let single = table.table("time", times).unwrap_or_else(default_times);
+    let place = table.place_of("fin_time");
+    let other = table.number("fin_time").unwrap_or(0.05);
+    if other < 0.0 {
+        table.error(place.unwrap_or_default(), "fin_time must not be negative");
+    }
+    Functions { codes, times: CodeTimes { single, other: Seconds(other.max(0.0)) }, b_axis }
+}
+
+fn times(table: &mut Table) -> Vec<(CodeLine, Option<u32>, Seconds)> {
+    let mut times = Vec::new();
+    for entry in table.rest() {
+        let (line, number) = entry.key.split_at(entry.key.len().min(1));
+        let line = match line {
+            "m" => Some(CodeLine::M),
+            "s" => Some(CodeLine::S),
+            "t" => Some(CodeLine::T),
+            "b" => Some(CodeLine::B),
+            _ => None,
+        };
+        let code = if number.is_empty() { Some(None) } else { number.parse().ok().map(Some) };
+        let (Some(line), Some(code)) = (line, code) else {
+            entry.error(format!("`{}` is no code; write m6 for one code, b for all of B", entry.key));
+            continue;
+        };
+        match entry.number() {
+            Some(seconds) if seconds >= 0.0 => times.push((line, code, Seconds(seconds))),
+            Some(_) => entry.error("a time must not be negative"),
+            None => {}
+        }
+    }
+    times
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stock_machine_is_what_a_file_with_the_required_keys_alone_gives() {
+        let (name, text) = builtin_machine("stock-vmc").expect("it is built in");
+        let stock = read_machine(&name, text).expect("it is right");
+        let axis = "kind = \"linear\"\ntravel = [-1000.0, 1000.0]\n";
+        let least = format!("name = \"stock-vmc\"\n[axes.X]\n{axis}[axes.Y]\n{axis}[axes.Z]\n{axis}");
+        let mut least = read_machine("least.toml", &least).expect("it is enough");
+        least.description.clone_from(&stock.description);
+        assert_eq!(least, stock);
+    }
+
+    #[test]
+    fn every_builtin_machine_is_right() {
+        for name in builtin_machines() {
+            let (file, text) = builtin_machine(name).expect("it is built in");
+            assert!(read_machine(&file, text).is_ok_and(|machine| machine.name == name), "{name}");
+        }
+    }
+
+    #[test]
+    fn errors_name_their_line_and_key() {
+        let text = "name = \"x\"\n[axes.X]\nkind = \"linear\"\ntravel = [1.0, -1.0]\nrapit = 5\n[axes.B]\nkind = \"rotary\"\ntravel = [0.0, 360.0]\n";
+        let errors = read_machine("x.toml", text).expect_err("three errors");
+        let said: Vec<_> = errors.iter().map(|e| format!("{}: {}", e.line, e.message)).collect();
+        assert_eq!(
+            said,
+            [
+                "4: travel is a list of two numbers, the lowest first",
+                "5: `rapit` is not a known key, perhaps `rapid` is meant",
+                "1: a B axis and the B function exclude each other; with [axes.B] set b_axis = true",
+            ]
+        );
+    }
+}

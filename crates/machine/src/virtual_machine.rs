@@ -1,0 +1,204 @@
+//! The virtual machine: executes timed shapes in virtual time and says what happened.
+//!
+//! Codes that start with a block run beside its motion; the block is done when motion and machine are. Codes after
+//! the motion go out when it has ended, one block's together, and are waited for before anything else moves.
+
+use base::{Alarm, AxisSet, Condition, Place, Point, Seconds};
+use dialect::StrokeCheck;
+use meaning::{CodeLine, CodeOut};
+use motion::Timed;
+use path::Shape;
+
+use crate::event::{Event, EventKind};
+use crate::file::{CodeTimes, MachineFile};
+use crate::travel::{Exit, Travel};
+
+/// What executes timed shapes: the virtual machine, or one with real axes.
+///
+/// The station calls [`Machine::execute`] with one shape after the other, in the order of the program, and never with
+/// one that lies behind a refused one. An implementation must not move an axis for any other reason.
+pub trait Machine {
+    /// Executes a shape to its end. What happened is handed to `tell` in order.
+    ///
+    /// # Errors
+    /// The move would leave the travel: nothing of it has been executed (or the part up to the border, by policy).
+    fn execute(&mut self, timed: &Timed, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal>;
+
+    /// The block is done: waits for the machine's answers to its codes.
+    fn finish_block(&mut self, place: &Place, tell: &mut dyn FnMut(Event));
+
+    /// Where the axes are, mm and degrees in machine coordinates.
+    fn position(&self) -> &Point;
+
+    /// Time since the start.
+    fn time(&self) -> Seconds;
+}
+
+/// A move that the machine does not make.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Refusal {
+    /// Why.
+    pub alarm: Alarm,
+}
+
+/// A machine without iron.
+#[derive(Clone, PartialEq, Debug)]
+pub struct VirtualMachine {
+    position: Point,
+    time: Seconds,
+    travel: Travel,
+    rates: Option<Point>,
+    stroke_check: StrokeCheck,
+    times: CodeTimes,
+    /// Codes that are out: their line and when the machine answers.
+    pending: [Option<(CodeLine, Seconds)>; PENDING],
+    /// Nothing moves before this time.
+    hold: Seconds,
+    /// Axes whose place is unknown: leaving their travel is not reported.
+    unknown: AxisSet,
+}
+
+/// Codes that can be out at once: those of one block.
+const PENDING: usize = 16;
+
+impl VirtualMachine {
+    /// A machine at its start position (mm, degrees).
+    pub fn new(file: &MachineFile, start: Point, stroke_check: StrokeCheck) -> VirtualMachine {
+        VirtualMachine {
+            position: start,
+            time: Seconds(0.0),
+            travel: file.travel(),
+            rates: (!file.straight_rapid).then(|| file.rapid_rates()),
+            stroke_check,
+            times: file.times.clone(),
+            pending: [None; PENDING],
+            hold: Seconds(0.0),
+            unknown: AxisSet::NONE,
+        }
+    }
+
+    /// Checking on after an alarm: where these axes are is not known.
+    pub fn set_unknown(&mut self, axes: AxisSet) {
+        self.unknown = axes;
+    }
+
+    /// Drops what was asked of the machine.
+    pub fn drop_codes(&mut self) {
+        self.pending = [None; PENDING];
+        self.hold = self.time;
+    }
+
+    fn tell(&self, tell: &mut dyn FnMut(Event), place: &Place, kind: EventKind) {
+        tell(Event { time: self.time, place: *place, kind });
+    }
+
+    fn send(&mut self, code: CodeOut, place: &Place, tell: &mut dyn FnMut(Event)) {
+        if code.after_motion {
+            self.await_codes(place, tell);
+        }
+        self.tell(tell, place, EventKind::Code(code));
+        let answer = self.time + self.times.of(code.line, code.code);
+        if let Some(slot) = self.pending.iter_mut().find(|slot| slot.is_none()) {
+            *slot = Some((code.line, answer));
+        }
+        if code.after_motion {
+            self.hold = self.hold.max(answer);
+        }
+    }
+
+    /// Waits until every code that is out has been answered.
+    fn await_codes(&mut self, place: &Place, tell: &mut dyn FnMut(Event)) {
+        loop {
+            let next = self.pending.iter_mut().filter(|slot| slot.is_some()).min_by(|a, b| {
+                let when = |slot: &Option<(CodeLine, Seconds)>| slot.map_or(f64::INFINITY, |(_, at)| at.0);
+                when(a).total_cmp(&when(b))
+            });
+            let Some((line, at)) = next.and_then(Option::take) else { return };
+            self.wait_until(at, place, tell);
+            tell(Event { time: at, place: *place, kind: EventKind::Finished(line) });
+        }
+    }
+
+    fn wait_until(&mut self, at: Seconds, place: &Place, tell: &mut dyn FnMut(Event)) {
+        if at > self.time {
+            let waited = at - self.time;
+            self.time = at;
+            self.tell(tell, place, EventKind::Waited(waited));
+        }
+    }
+
+    fn refuse(&self, exit: Exit, place: &Place) -> Refusal {
+        let Exit { axis, reaches } = exit;
+        let alarm = Alarm::new(Condition::TravelExceeded, *place, place.block)
+            .with([reaches, self.travel.low[axis], self.travel.high[axis]])
+            .on_axis(axis);
+        Refusal { alarm }
+    }
+
+    fn run(&mut self, shape: &Shape, timed: &Timed, tell: &mut dyn FnMut(Event)) {
+        let place = &timed.shaped.place;
+        let Timed { duration, length, feed, .. } = *timed;
+        let kind = match *shape {
+            Shape::Rapid { from, to, .. } => {
+                self.position = to;
+                EventKind::Rapid { from, to, duration, length }
+            }
+            Shape::Line { from, to, .. } => {
+                self.position = to;
+                EventKind::Feed { from, to, feed, duration, length }
+            }
+            Shape::Arc { arc, .. } => {
+                self.position = arc.to;
+                EventKind::Arc { arc, feed, duration, length }
+            }
+            _ => return,
+        };
+        self.time += duration;
+        self.tell(tell, place, kind);
+    }
+}
+
+impl Machine for VirtualMachine {
+    fn execute(&mut self, timed: &Timed, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal> {
+        let place = &timed.shaped.place;
+        match &timed.shaped.shape {
+            Shape::Code(code) => self.send(*code, place, tell),
+            Shape::Dwell(dwell) => {
+                self.wait_until(self.hold, place, tell);
+                self.time += timed.duration;
+                self.tell(tell, place, EventKind::Dwell(*dwell));
+            }
+            Shape::Set(value) => self.tell(tell, place, EventKind::Set(*value)),
+            Shape::Start(groups) => self.tell(tell, place, EventKind::Start(*groups)),
+            shape @ (Shape::Rapid { .. } | Shape::Line { .. } | Shape::Arc { .. }) => {
+                self.wait_until(self.hold, place, tell);
+                let exit = if timed.shaped.certain { self.travel.exit(shape) } else { None };
+                match exit {
+                    Some(exit) if !self.unknown.has(exit.axis) => {
+                        if self.stroke_check == StrokeCheck::AtBorder {
+                            self.run(&self.travel.until_border(shape, self.rates.as_ref()), timed, tell);
+                        }
+                        return Err(self.refuse(exit, place));
+                    }
+                    _ => self.run(shape, timed, tell),
+                }
+            }
+            Shape::Close(_) | Shape::Alarm(_) => {}
+        }
+        Ok(())
+    }
+
+    fn finish_block(&mut self, place: &Place, tell: &mut dyn FnMut(Event)) {
+        self.await_codes(place, tell);
+        self.hold = self.time;
+        self.tell(tell, place, EventKind::BlockDone);
+    }
+
+    fn position(&self) -> &Point {
+        &self.position
+    }
+
+    fn time(&self) -> Seconds {
+        self.time
+    }
+}

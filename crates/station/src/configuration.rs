@@ -1,0 +1,210 @@
+//! One control on one machine, set up: what a session starts from.
+
+use std::sync::Arc;
+
+use base::{AXES, Point};
+use dialect::{Control, Fitting, Meaning};
+use machine::MachineFile;
+use meaning::{Memory, OffsetTable};
+
+use crate::session::SessionSwitches;
+use crate::setup::{OffsetColumn, Setup};
+
+/// A set-up that this control or machine refuses.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ConfigurationError(pub String);
+
+impl std::fmt::Display for ConfigurationError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for ConfigurationError {}
+
+/// Signals held by hand; `None` follows the machine's wiring.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Inputs {
+    /// Internal reset input.
+    pub eop: Option<bool>,
+    /// Rewind input.
+    pub rwd: Option<bool>,
+}
+
+impl Inputs {
+    /// Holds an input.
+    ///
+    /// # Errors
+    /// There is no such input.
+    pub fn set(&mut self, name: &str, on: bool) -> Result<(), ConfigurationError> {
+        match name {
+            "EOP" => self.eop = Some(on),
+            "RWD" => self.rwd = Some(on),
+            "skip" | "interrupt" | "FIN" => return Err(wrong(format!("the input `{name}` is not built yet"))),
+            _ => return Err(wrong(format!("there is no input `{name}`; the inputs are EOP and RWD"))),
+        }
+        Ok(())
+    }
+}
+
+/// A control, its machine, and everything set on both.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Configuration {
+    /// The control.
+    pub control: Arc<Control>,
+    /// Options, policies, parameters.
+    pub fitting: Fitting,
+    /// The machine.
+    pub machine: MachineFile,
+    /// Offsets and work origins.
+    pub memory: Memory,
+    /// Origin of the base work system, counts.
+    pub base_origin: Point,
+    /// Where the axes stand at power-on, mm and degrees.
+    pub start: Point,
+    /// The operator's switches.
+    pub switches: SessionSwitches,
+    /// Signals held by hand.
+    pub inputs: Inputs,
+}
+
+fn wrong(message: impl Into<String>) -> ConfigurationError {
+    ConfigurationError(message.into())
+}
+
+impl Configuration {
+    /// A control on a machine as they come, and the set-ups on top of them, later ones over earlier ones.
+    ///
+    /// # Errors
+    /// The first thing that this control or machine does not have, or that excludes another.
+    pub fn new(control: Arc<Control>, machine: MachineFile, setups: &[&Setup]) -> Result<Configuration, ConfigurationError> {
+        let fitting = Fitting::stock(&control);
+        let lengths = OffsetTable::new(control.highest_offset);
+        let radii = (!control.common_offsets).then(|| OffsetTable::new(control.highest_offset));
+        let mut configuration = Configuration {
+            memory: Memory { lengths, radii, work: [[0.0; AXES]; 6] },
+            fitting,
+            machine,
+            base_origin: [0.0; AXES],
+            start: [0.0; AXES],
+            switches: SessionSwitches::default(),
+            inputs: Inputs::default(),
+            control,
+        };
+        configuration.fit_axes(setups)?;
+        for setup in setups {
+            configuration.apply(setup)?;
+        }
+        configuration.fitting.check_options(&configuration.control).map_err(|error| wrong(error.0))?;
+        Ok(configuration)
+    }
+
+    /// What the machine's axes say of the control's options: a fourth axis, an axis B.
+    fn fit_axes(&mut self, setups: &[&Setup]) -> Result<(), ConfigurationError> {
+        let control = self.control.clone();
+        let known = |letter: u8| {
+            control.address(letter).is_some_and(|address| {
+                use dialect::AddressKind::{LinearAxis, RotaryAxis};
+                matches!(address.kind, LinearAxis | RotaryAxis) || letter == b'B'
+            })
+        };
+        if let Some(axis) = self.machine.axes.iter().find(|axis| !known(axis.letter)) {
+            return Err(wrong(format!("the {} has no axis {}", control.title, char::from(axis.letter))));
+        }
+        let has_option = |name: &str| control.options.iter().any(|row| row.name == name);
+        let fourth = self.machine.axes.iter().any(|axis| !matches!(axis.letter, b'X' | b'Y' | b'Z'));
+        if fourth && has_option("fourth-axis") {
+            self.fitting.set_option(&control, "fourth-axis", true).map_err(|error| wrong(error.0))?;
+        }
+        let said = setups.iter().any(|setup| setup.options.iter().any(|(name, _)| name == "b-function"));
+        if self.machine.b_axis && has_option("b-function") && !said {
+            self.fitting.set_option(&control, "b-function", false).map_err(|error| wrong(error.0))?;
+        }
+        Ok(())
+    }
+
+    /// Sets what a set-up says.
+    ///
+    /// # Errors
+    /// The first thing that this control or machine does not have.
+    pub fn apply(&mut self, setup: &Setup) -> Result<(), ConfigurationError> {
+        let control = self.control.clone();
+        for (name, fitted) in &setup.options {
+            self.fitting.set_option(&control, name, *fitted).map_err(|error| wrong(error.0))?;
+        }
+        for (name, value) in &setup.policies {
+            self.fitting.set_policy(&control, name, value).map_err(|error| wrong(error.0))?;
+        }
+        for setting in &setup.parameters {
+            self.fitting.set_parameter(&control, setting).map_err(|error| wrong(error.0))?;
+        }
+        for &(column, number, mm) in &setup.offsets {
+            self.set_offset(column, number, mm)?;
+        }
+        for (system, axis, mm) in &setup.work {
+            self.set_work(system, *axis, *mm)?;
+        }
+        for &(letter, mm) in &setup.start {
+            let axis = self.axis(letter)?;
+            self.start[axis] = mm;
+        }
+        for (name, number) in &setup.switches {
+            self.switches.set(name, *number, true).map_err(wrong)?;
+        }
+        for (name, on) in &setup.inputs {
+            self.inputs.set(name, *on)?;
+        }
+        Ok(())
+    }
+
+    fn axis(&self, letter: u8) -> Result<usize, ConfigurationError> {
+        let found = self.machine.axes.iter().position(|axis| axis.letter == letter);
+        found.ok_or_else(|| wrong(format!("the machine {} has no axis {}", self.machine.name, char::from(letter))))
+    }
+
+    /// Writes an offset, mm.
+    ///
+    /// # Errors
+    /// There is no such number, or the value is too large.
+    pub fn set_offset(&mut self, column: OffsetColumn, number: u32, mm: f64) -> Result<(), ConfigurationError> {
+        let (title, limit) = (&self.control.title, self.control.offset_limit_mm);
+        if mm.abs() > limit {
+            return Err(wrong(format!("offset {number} = {mm}: an offset lies within ±{limit} mm")));
+        }
+        let table = match (column, &mut self.memory.radii) {
+            (OffsetColumn::Common, None) | (OffsetColumn::Length, Some(_)) => &mut self.memory.lengths,
+            (OffsetColumn::Radius, Some(radii)) => radii,
+            (OffsetColumn::Common, Some(_)) => {
+                return Err(wrong(format!("the {title} keeps lengths and radii apart: write H{number}= or D{number}=")));
+            }
+            (_, None) => return Err(wrong(format!("the {title} has one common memory: write it under [offsets]"))),
+        };
+        if table.set(number, (mm * 1e6).round()) {
+            Ok(())
+        } else {
+            let highest = self.control.highest_offset;
+            Err(wrong(format!("there is no offset {number}; the {title} has 1 to {highest}")))
+        }
+    }
+
+    /// Writes the origin of a work system on one axis, mm or degrees.
+    ///
+    /// # Errors
+    /// There is no such system or axis.
+    pub fn set_work(&mut self, system: &str, letter: u8, mm: f64) -> Result<(), ConfigurationError> {
+        let axis = self.axis(letter)?;
+        let counts = (mm * 1e6).round();
+        let row = self.control.g_codes.iter().enumerate().find(|(row, _)| self.control.g_name(*row as u8) == system);
+        match row {
+            Some((_, code)) if code.meaning == Meaning::WorkSystem => {
+                match self.memory.work.get_mut(usize::from(code.number.saturating_sub(1))) {
+                    Some(origin) => origin[axis] = counts,
+                    None => return Err(wrong(format!("{system} is no work system"))),
+                }
+            }
+            Some((row, _)) if Some(row as u8) == self.control.base_system => self.base_origin[axis] = counts,
+            _ => return Err(wrong(format!("{system} is no work system of the {}", self.control.title))),
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,439 @@
+//! A program in execution: the stages chained, their questions answered, their events handed out one by one.
+
+use std::collections::VecDeque;
+
+use base::{Alarm, AxisSet, Place, Point, Seconds};
+use dialect::MMeaning;
+use machine::{Event, EventKind, Machine, ResetCause, StopCause, VirtualMachine};
+use meaning::{Answer, BarrierKind, Close, EndKind, Interpreter, Pull, StopKind};
+use motion::{Motion, Timed};
+use path::{Path, Shape};
+
+use crate::configuration::{Configuration, Inputs};
+use crate::library::{Library, LibraryError};
+
+/// The operator's switches.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct SessionSwitches {
+    /// M01 stops.
+    pub optional_stop: bool,
+    /// A stop after every block.
+    pub single_block: bool,
+    /// Block delete 1 to 9, bit 0 for the first.
+    pub block_delete: u16,
+}
+
+impl SessionSwitches {
+    /// Turns a switch by its name.
+    ///
+    /// # Errors
+    /// Why not, in words.
+    pub fn set(&mut self, name: &str, number: Option<u8>, on: bool) -> Result<(), String> {
+        match name {
+            "optional-stop" => self.optional_stop = on,
+            "single-block" => self.single_block = on,
+            "block-delete" => {
+                let bit = 1 << (number.unwrap_or(1).clamp(1, 9) - 1);
+                self.block_delete = if on { self.block_delete | bit } else { self.block_delete & !bit };
+            }
+            "dry-run" | "machine-lock" | "display-lock" | "aux-lock" | "z-cancel" | "manual-absolute" => {
+                return Err(format!("the switch `{name}` is not built yet"));
+            }
+            _ => {
+                return Err(format!("there is no switch `{name}`; built are optional-stop, block-delete[=n], single-block"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What follows an alarm.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum AfterAlarm {
+    /// The control stands until RESET.
+    #[default]
+    Stand,
+    /// It goes on, to find later ones: only for checking.
+    GoOn,
+}
+
+/// What a session has next.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Step {
+    /// Something happened.
+    Event(Event),
+    /// The control waits for CYCLE START.
+    Stopped,
+    /// Nothing more happens: the program has ended, or an alarm stands.
+    Idle,
+    /// A text could not be read.
+    Failed(LibraryError),
+}
+
+/// A session: one control with its machine and memory.
+pub struct Session<L> {
+    motion: Motion,
+    machine: VirtualMachine,
+    library: L,
+    configuration: Configuration,
+    /// The switches, as the operator has set them.
+    switches: SessionSwitches,
+    inputs: Inputs,
+    after_alarm: AfterAlarm,
+    repeats_main: bool,
+    events: VecDeque<Event>,
+    bytes: Vec<u8>,
+    held: Option<Timed>,
+    stopped: bool,
+    alarm: Option<Alarm>,
+    ended: bool,
+    rewound: bool,
+    failed: Option<LibraryError>,
+    unknown: AxisSet,
+}
+
+impl<L: Library> Session<L> {
+    /// A control at power-on.
+    pub fn new(configuration: Configuration, library: L) -> Session<L> {
+        let Configuration { control, fitting, machine, memory, base_origin, start, switches, inputs } = configuration.clone();
+        let interpreter =
+            Interpreter::new(control, fitting.clone(), machine.facts(), memory, &start, base_origin);
+        let virtual_machine = VirtualMachine::new(&machine, start, fitting.policies.stroke_check);
+        let motion = Motion::new(Path::new(interpreter, start), machine.limits());
+        let mut session = Session {
+            motion,
+            machine: virtual_machine,
+            library,
+            configuration,
+            switches,
+            inputs,
+            after_alarm: AfterAlarm::Stand,
+            repeats_main: false,
+            events: VecDeque::with_capacity(32),
+            bytes: Vec::new(),
+            held: None,
+            stopped: false,
+            alarm: None,
+            ended: true,
+            rewound: true,
+            failed: None,
+            unknown: AxisSet::NONE,
+        };
+        session.pass_switches();
+        session
+    }
+
+    /// What follows an alarm.
+    pub fn set_after_alarm(&mut self, after: AfterAlarm) {
+        self.after_alarm = after;
+        if after == AfterAlarm::GoOn {
+            self.interpreter_mut().go_on_after_alarms();
+        }
+    }
+
+    /// M99 in the main program runs it again (as the control does) or ends it.
+    pub fn set_repeats_main(&mut self, repeats: bool) {
+        self.repeats_main = repeats;
+    }
+
+    /// The interpreter, to look at.
+    pub fn interpreter(&self) -> &Interpreter {
+        &self.motion.upstream.upstream
+    }
+
+    /// The interpreter.
+    pub fn interpreter_mut(&mut self) -> &mut Interpreter {
+        &mut self.motion.upstream.upstream
+    }
+
+    /// The texts.
+    pub fn library_mut(&mut self) -> &mut L {
+        &mut self.library
+    }
+
+    /// The texts.
+    pub fn library(&self) -> &L {
+        &self.library
+    }
+
+    /// What the session started from.
+    pub fn configuration(&self) -> &Configuration {
+        &self.configuration
+    }
+
+    /// Where the axes are, mm and degrees in machine coordinates.
+    pub fn position(&self) -> &Point {
+        self.machine.position()
+    }
+
+    /// Virtual time since power-on.
+    pub fn time(&self) -> Seconds {
+        self.machine.time()
+    }
+
+    /// The alarm that stands.
+    pub fn alarm(&self) -> Option<&Alarm> {
+        self.alarm.as_ref()
+    }
+
+    /// True if a program is being executed, stopped or not.
+    pub fn is_running(&self) -> bool {
+        !self.ended && self.alarm.is_none()
+    }
+
+    /// True if it waits for CYCLE START.
+    pub fn is_stopped(&self) -> bool {
+        self.stopped
+    }
+
+    /// Chooses the program to run.
+    pub fn select(&mut self, source: base::SourceId, name: &str) {
+        self.interpreter_mut().select(source, name);
+        self.held = None;
+        self.rewound = true;
+        self.ended = true;
+    }
+
+    /// CYCLE START: begins the selected program, or goes on after a stop.
+    pub fn start(&mut self) {
+        if self.ended {
+            let rewound = self.rewound;
+            let interpreter = self.interpreter_mut();
+            if rewound {
+                interpreter.rewind();
+            } else {
+                interpreter.go_on_after_end();
+            }
+        }
+        self.ended = false;
+        self.rewound = false;
+        self.stopped = false;
+    }
+
+    /// The program from its head once more, everything else as it stands.
+    pub fn start_over(&mut self) {
+        self.rewound = true;
+        self.ended = true;
+        self.start();
+    }
+
+    /// Turns a switch.
+    ///
+    /// # Errors
+    /// Why not, in words.
+    pub fn set_switch(&mut self, name: &str, number: Option<u8>, on: bool) -> Result<(), String> {
+        self.switches.set(name, number, on)?;
+        self.pass_switches();
+        Ok(())
+    }
+
+    /// Holds an input by hand.
+    ///
+    /// # Errors
+    /// Why not, in words.
+    pub fn set_input(&mut self, name: &str, on: bool) -> Result<(), String> {
+        self.inputs.set(name, on).map_err(|error| error.0)
+    }
+
+    fn pass_switches(&mut self) {
+        let SessionSwitches { optional_stop, block_delete, .. } = self.switches;
+        let switches = self.interpreter_mut().switches_mut();
+        switches.optional_stop = optional_stop;
+        switches.block_delete = block_delete;
+    }
+
+    /// RESET: whatever runs is dropped, an alarm is cleared, the reset table is applied.
+    pub fn reset(&mut self, cause: ResetCause) {
+        let position = *self.machine.position();
+        let place = self.place();
+        self.machine.drop_codes();
+        self.motion.upstream.stand_at(&position);
+        self.interpreter_mut().reset(&position);
+        self.held = None;
+        self.alarm = None;
+        self.stopped = false;
+        self.ended = true;
+        let groups = self.interpreter().read_state().groups;
+        self.tell(place, EventKind::Reset { cause, groups });
+    }
+
+    /// The block being executed.
+    pub fn place(&self) -> Place {
+        self.interpreter().executing().map_or_else(Place::default, |command| command.place)
+    }
+
+    fn tell(&mut self, place: Place, kind: EventKind) {
+        let time = self.machine.time();
+        self.events.push_back(Event { time, place, kind });
+    }
+
+    /// The next thing that happens.
+    pub fn next(&mut self) -> Step {
+        loop {
+            if let Some(event) = self.events.pop_front() {
+                return Step::Event(event);
+            }
+            if let Some(error) = self.failed.take() {
+                self.ended = true;
+                return Step::Failed(error);
+            }
+            if self.stopped {
+                return Step::Stopped;
+            }
+            if self.ended || self.alarm.is_some() {
+                return Step::Idle;
+            }
+            if let Some(timed) = self.pull() {
+                self.execute(&timed);
+            }
+        }
+    }
+
+    /// The place of the block that comes next, without executing any of it; `None` if something else comes first.
+    pub fn peek(&mut self) -> Option<Place> {
+        if !self.events.is_empty() || self.stopped || self.ended || self.alarm.is_some() {
+            return None;
+        }
+        let timed = self.pull()?;
+        self.held = Some(timed);
+        Some(timed.shaped.place)
+    }
+
+    /// The next shape; `None` if a question had to be answered, a stop was met or there is no more.
+    fn pull(&mut self) -> Option<Timed> {
+        if let Some(timed) = self.held.take() {
+            return Some(timed);
+        }
+        loop {
+            let barrier = match self.motion.next() {
+                Pull::Item(timed) => return Some(timed),
+                Pull::End => {
+                    self.ended = true;
+                    return None;
+                }
+                Pull::Barrier(barrier) => barrier,
+            };
+            let answered = match barrier.kind {
+                BarrierKind::NeedBytes { source, offset, len } => {
+                    match self.library.read(source, offset, len, &mut self.bytes) {
+                        Ok(last) => self.motion.resume(barrier.id, Answer::Bytes(&self.bytes, last)),
+                        Err(error) => {
+                            self.failed = Some(error);
+                            return None;
+                        }
+                    }
+                }
+                BarrierKind::NeedProgram { number } => match self.library.find_program(number) {
+                    Ok(Some(source)) => self.motion.resume(barrier.id, Answer::Program(source)),
+                    Ok(None) => self.motion.resume(barrier.id, Answer::NotFound),
+                    Err(error) => {
+                        self.failed = Some(error);
+                        return None;
+                    }
+                },
+                // The stop was told when its block closed; here CYCLE START has been pressed.
+                BarrierKind::CycleStart => self.motion.resume(barrier.id, Answer::Continue),
+                BarrierKind::RunAgain => {
+                    let answer = if self.repeats_main { Answer::Continue } else { Answer::Stop };
+                    self.motion.resume(barrier.id, answer)
+                }
+            };
+            debug_assert!(answered.is_ok(), "a barrier is answered in the moment it is met");
+        }
+    }
+
+    fn execute(&mut self, timed: &Timed) {
+        let place = timed.shaped.place;
+        match timed.shaped.shape {
+            Shape::Alarm(alarm) => self.raise(alarm),
+            Shape::Close(close) => self.close(close, place),
+            _ => {
+                if self.after_alarm == AfterAlarm::GoOn {
+                    self.pass_unknown();
+                }
+                let events = &mut self.events;
+                match self.machine.execute(timed, &mut |event| events.push_back(event)) {
+                    Ok(()) => {
+                        if timed.shaped.stop_point && self.switches.single_block {
+                            self.stop(place, StopKind::SingleBlock);
+                        }
+                    }
+                    Err(refusal) => self.raise(self.at_the_word(refusal.alarm)),
+                }
+            }
+        }
+    }
+
+    /// Checking on: the machine learns which axes' places are unknown in the block it executes.
+    fn pass_unknown(&mut self) {
+        if let Some(command) = self.interpreter().executing() {
+            let unknown = self.unknown.without(command.absolute);
+            let axes = unknown.or(command.after.unknown.axes);
+            self.unknown = unknown;
+            self.machine.set_unknown(axes);
+        }
+    }
+
+    /// An alarm about an axis points at the axis' word.
+    fn at_the_word(&self, mut alarm: Alarm) -> Alarm {
+        if let (Some(axis), Some(command)) = (alarm.axis, self.interpreter().executing()) {
+            alarm.span = command.axis_span(usize::from(axis));
+        }
+        alarm
+    }
+
+    fn raise(&mut self, alarm: Alarm) {
+        self.tell(alarm.place, EventKind::Alarm(alarm));
+        match self.after_alarm {
+            AfterAlarm::Stand => self.alarm = Some(alarm),
+            AfterAlarm::GoOn => {
+                if let Some(axis) = alarm.axis {
+                    let axes = AxisSet::only(usize::from(axis));
+                    self.unknown = self.unknown.or(axes);
+                    self.interpreter_mut().forget_axes(axes);
+                }
+            }
+        }
+    }
+
+    fn stop(&mut self, place: Place, kind: StopKind) {
+        self.stopped = true;
+        self.tell(place, EventKind::Stop(StopCause::Program(kind)));
+    }
+
+    fn close(&mut self, close: Close, place: Place) {
+        let events = &mut self.events;
+        self.machine.finish_block(&place, &mut |event| events.push_back(event));
+        match close {
+            Close::Stop(kind) => self.stop(place, kind),
+            Close::End(kind) => self.end(kind, place),
+            // The start of the program and the end of its text are no blocks.
+            Close::Next if self.switches.single_block && place.line > 0 => self.stop(place, StopKind::SingleBlock),
+            Close::Next => {}
+        }
+    }
+
+    fn end(&mut self, kind: EndKind, place: Place) {
+        let reset = self.input(kind, self.inputs.eop, &self.configuration.machine.wiring.eop);
+        let rewind = kind == EndKind::M99 || self.input(kind, self.inputs.rwd, &self.configuration.machine.wiring.rwd);
+        let groups = self.interpreter().executing_state().groups;
+        let to = *self.machine.position();
+        self.tell(place, EventKind::End { kind, rewind, reset, groups, to });
+        self.ended = true;
+        self.rewound = rewind;
+        if reset {
+            self.reset(ResetCause::ProgramEnd);
+        }
+    }
+
+    /// Whether an input is on at the end of a program: held by hand, or driven by the end code's decoded line.
+    fn input(&self, kind: EndKind, by_hand: Option<bool>, wired: &[String]) -> bool {
+        let meaning = match kind {
+            EndKind::M02 => MMeaning::ProgramEnd,
+            EndKind::M30 => MMeaning::TapeEnd,
+            EndKind::M99 | EndKind::Text => return false,
+        };
+        let line = self.configuration.control.m_of(meaning).and_then(|row| row.decoded.as_ref());
+        by_hand.unwrap_or_else(|| line.is_some_and(|line| wired.contains(line)))
+    }
+}

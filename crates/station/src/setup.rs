@@ -1,0 +1,123 @@
+//! The set-up file: offsets, work coordinates, parameters, switches, inputs, options, policies, start position.
+
+use data::{DataError, Document, Entry, Table};
+use dialect::ParameterSetting;
+
+/// A column of the offset memory.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum OffsetColumn {
+    /// The one memory that H and D share.
+    Common,
+    /// Lengths, by H.
+    Length,
+    /// Radii, by D.
+    Radius,
+}
+
+/// What a set-up says; values as written, checked when they are applied to a control and a machine.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Setup {
+    /// Column, number, value in mm.
+    pub offsets: Vec<(OffsetColumn, u32, f64)>,
+    /// System (`G54`), axis letter, machine coordinate of its origin in mm or degrees.
+    pub work: Vec<(String, u8, f64)>,
+    /// Parameters.
+    pub parameters: Vec<ParameterSetting>,
+    /// Switches that are on: name, and for block delete its number.
+    pub switches: Vec<(String, Option<u8>)>,
+    /// Inputs held by hand.
+    pub inputs: Vec<(String, bool)>,
+    /// Options.
+    pub options: Vec<(String, bool)>,
+    /// Policies.
+    pub policies: Vec<(String, String)>,
+    /// Axis letter, machine coordinate at power-on.
+    pub start: Vec<(u8, f64)>,
+}
+
+/// Reads a set-up file.
+///
+/// # Errors
+/// Every error of the file, each naming its line and key.
+pub fn read_setup(file: &str, text: &str) -> Result<Setup, Vec<DataError>> {
+    Document::read(file, text, |root| {
+        let mut setup = Setup::default();
+        for (key, column) in
+            [("offsets", OffsetColumn::Common), ("lengths", OffsetColumn::Length), ("radii", OffsetColumn::Radius)]
+        {
+            let found = root.table(key, |t| t.rest().iter().filter_map(|entry| offset(entry, column)).collect::<Vec<_>>());
+            setup.offsets.extend(found.unwrap_or_default());
+        }
+        let work = root.table("work", |t| t.rest().into_iter().flat_map(work_system).collect());
+        setup.work = work.unwrap_or_default();
+        setup.parameters = root.table("parameters", |t| t.rest().iter().filter_map(parameter).collect()).unwrap_or_default();
+        setup.switches = root.table("switches", |t| t.rest().into_iter().flat_map(switches).collect()).unwrap_or_default();
+        setup.inputs = root.table("inputs", truths).unwrap_or_default();
+        setup.options = root.table("options", truths).unwrap_or_default();
+        setup.policies = root
+            .table("policies", |t| t.rest().iter().filter_map(|e| Some((e.key.clone(), e.written()?))).collect())
+            .unwrap_or_default();
+        setup.start = root
+            .table("start", |t| t.rest().iter().filter_map(|e| Some((letter(e)?, e.number()?))).collect())
+            .unwrap_or_default();
+        setup
+    })
+}
+
+fn offset(entry: &Entry, column: OffsetColumn) -> Option<(OffsetColumn, u32, f64)> {
+    match entry.key.parse() {
+        Ok(number) => Some((column, number, entry.number()?)),
+        Err(_) => {
+            entry.error(format!("`{}` is no offset number", entry.key));
+            None
+        }
+    }
+}
+
+fn letter(entry: &Entry) -> Option<u8> {
+    match entry.key.as_bytes() {
+        [letter @ b'A'..=b'Z'] => Some(*letter),
+        _ => {
+            entry.error(format!("`{}` is no axis letter", entry.key));
+            None
+        }
+    }
+}
+
+fn work_system(entry: Entry) -> Vec<(String, u8, f64)> {
+    let system = entry.key.clone();
+    let axes = entry.table(|t| t.rest().iter().filter_map(|e| Some((letter(e)?, e.number()?))).collect::<Vec<_>>());
+    axes.unwrap_or_default().into_iter().map(|(axis, value)| (system.clone(), axis, value)).collect()
+}
+
+fn parameter(entry: &Entry) -> Option<ParameterSetting> {
+    Some(ParameterSetting { name: entry.key.clone(), bit: None, value: entry.written()? })
+}
+
+fn switches(entry: Entry) -> Vec<(String, Option<u8>)> {
+    let name = entry.key.replace('_', "-");
+    if name == "block-delete" {
+        if let Some(number) = entry.boolean_or_none() {
+            return if number { vec![(name, Some(1))] } else { Vec::new() };
+        }
+        let numbers = entry.list().unwrap_or_default();
+        return numbers
+            .iter()
+            .filter_map(|item| match item.integer() {
+                Some(number @ 1..=9) => Some((name.clone(), Some(number as u8))),
+                _ => {
+                    item.error("block delete switches are numbered 1 to 9");
+                    None
+                }
+            })
+            .collect();
+    }
+    match entry.boolean() {
+        Some(true) => vec![(name, None)],
+        _ => Vec::new(),
+    }
+}
+
+fn truths(table: &mut Table) -> Vec<(String, bool)> {
+    table.rest().iter().filter_map(|entry| Some((entry.key.clone(), entry.boolean()?))).collect()
+}
