@@ -1,1 +1,50 @@
-fn main() {}
+//! The `cyclestart` program: reads the command line, opens files, prints. One file a command, no logic of the control.
+
+#![allow(clippy::disallowed_methods, clippy::disallowed_types)] // the edge of the house: files, terminal, exit codes
+
+mod arguments;
+mod command;
+mod failure;
+mod output;
+mod setting;
+mod show_alarm;
+mod texts;
+
+use std::panic::{self, AssertUnwindSafe};
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::arguments::{Command, CommandLine};
+use crate::failure::Failure;
+
+fn main() -> ExitCode {
+    panic::set_hook(Box::new(|info| {
+        eprintln!("internal error: {info}");
+        eprintln!("This is a bug in cyclestart, not in your program. Please report it with the command and its input.");
+    }));
+    let command_line = CommandLine::parse();
+    let outcome = panic::catch_unwind(AssertUnwindSafe(|| run(command_line.command)));
+    match outcome {
+        Ok(Ok(true)) => ExitCode::SUCCESS,
+        Ok(Ok(false)) => ExitCode::from(1),
+        Ok(Err(Failure::PipeClosed)) => ExitCode::SUCCESS,
+        Ok(Err(Failure::Call(message))) => {
+            eprintln!("{message}");
+            ExitCode::from(2)
+        }
+        Err(_) => ExitCode::from(3),
+    }
+}
+
+/// Runs a command; `false` says that the control raised an alarm.
+fn run(command: Command) -> Result<bool, Failure> {
+    match command {
+        Command::Run(arguments) => command::run::run(&arguments),
+        Command::Check(arguments) => command::check::check(&arguments),
+        Command::Trace(arguments) => command::trace::trace(&arguments),
+        Command::Operate(arguments) => command::operate::operate(&arguments),
+        Command::Plot(arguments) => command::plot::plot(&arguments),
+        Command::Controls(arguments) => command::controls::controls(&arguments),
+    }
+}

@@ -60,13 +60,8 @@ impl Drawing {
 
     /// The sheet as SVG: well-formed, the same bytes for the same strokes and marks.
     pub fn svg(&self) -> String {
-        sheet(&Content {
-            title: &self.title,
-            survey: &self.survey,
-            pieces: &self.path.pieces(&self.survey),
-            marks: &self.marks,
-            visible_error_mm: self.path.visible_error_mm(&self.survey),
-        })
+        let drawn = self.path.drawn(&self.survey);
+        sheet(&Content { title: &self.title, survey: &self.survey, drawn: &drawn, marks: &self.marks })
     }
 
     /// The sheet as PNG, so many pixels wide (1 to [`WIDEST_PX`](crate::WIDEST_PX)); the height follows.

@@ -13,7 +13,7 @@ const TICK: f64 = 6.0;
 const NUMBER_AT: f64 = 13.0;
 
 /// Numbers stand at least so far apart along their axis: X, Y, Z.
-const APART: [f64; 3] = [54.0, 54.0, 34.0];
+const APART: [f64; 3] = [54.0, 54.0, 28.0];
 
 /// The length of the tripod's legs, and how far from the panel's sides it stands.
 const LEG: f64 = 34.0;

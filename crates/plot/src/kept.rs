@@ -11,14 +11,17 @@ use crate::piece::Piece;
 use crate::simplify::{WINDOW, simplify};
 use crate::survey::Survey;
 
-/// The most segments that are kept, an arc counting for several.
-pub(crate) const MOST_SEGMENTS: usize = 150_000;
+/// The most segments that are drawn, an arc counting for several.
+pub(crate) const MOST_DRAWN: usize = 150_000;
+
+/// Twice as many are kept, so that coarsening is seldom.
+const MOST_KEPT: usize = 2 * MOST_DRAWN;
 
 /// A coarsening is enough if it leaves at most so many. One that costs time makes more room, so that the next is far
 /// away, and one that can be seen even more.
-const ENOUGH: usize = MOST_SEGMENTS / 8 * 7;
-const ENOUGH_COVERED: usize = MOST_SEGMENTS / 4 * 3;
-const ENOUGH_VISIBLY: usize = MOST_SEGMENTS / 2;
+const ENOUGH: usize = MOST_DRAWN / 8 * 7;
+const ENOUGH_COVERED: usize = MOST_DRAWN / 4 * 3;
+const ENOUGH_VISIBLY: usize = MOST_DRAWN / 2;
 
 /// The tolerance in mm of a path that is not coarsened: a tenth of a micrometre joins what is collinear.
 const COLLINEAR_MM: f64 = 1e-4;
@@ -36,6 +39,13 @@ const MOST_CELLS: f64 = 4e7;
 
 /// The region in which the path is kept reaches so far beyond the cutting moves, as a part of the extent.
 const REACH_PART: f64 = 0.25;
+
+/// The path as it is drawn.
+pub(crate) struct Drawn {
+    pub pieces: Vec<Piece>,
+    /// How far from its place a piece may be in mm, if that is more than the sheet hides.
+    pub visible_error_mm: Option<f64>,
+}
 
 /// The pieces that are kept, and the straight chain that is still growing.
 #[derive(Clone, Debug)]
@@ -73,26 +83,26 @@ impl KeptPath {
         } else {
             self.lengthen_chain(piece, survey);
         }
-        if self.segments >= MOST_SEGMENTS {
+        if self.segments >= MOST_KEPT {
             self.coarsen(survey);
         }
     }
 
-    /// Everything that is kept, in the order in which it came.
-    pub fn pieces(&self, survey: &Survey) -> Vec<Piece> {
-        let mut pieces = self.pieces.clone();
-        if let Some(like) = &self.first_of_chain {
-            put_chain(&self.chain, like, self.tolerance_mm, &mut pieces);
-        }
-        if self.cell_mm > 0.0 {
+    /// What is to be drawn, in the order in which it came.
+    pub fn drawn(&self, survey: &Survey) -> Drawn {
+        let mut path = self.clone();
+        path.end_chain(survey);
+        if path.segments > MOST_DRAWN {
+            path.coarsen(survey);
+        } else if path.cell_mm > 0.0 {
             // What came after the last coarsening is thinned out like the rest, or it would look denser.
-            drop_covered(&mut pieces, &region(survey), self.cell_mm, &survey.feeds);
+            path.leave_out_covered(survey);
         }
-        pieces
+        let visible_error_mm = path.visible_error_mm(survey);
+        Drawn { pieces: path.pieces, visible_error_mm }
     }
 
-    /// How far from its place a piece may be drawn in mm, if that is more than the sheet hides.
-    pub fn visible_error_mm(&self, survey: &Survey) -> Option<f64> {
+    fn visible_error_mm(&self, survey: &Survey) -> Option<f64> {
         let hidden = survey.subject().span() * FAITHFUL_PART;
         let error = self.tolerance_mm.max(self.cell_mm * 0.5);
         (self.tolerance_mm > COLLINEAR_MM && error > hidden * 1.5).then_some(error)
@@ -116,7 +126,7 @@ impl KeptPath {
             self.segments += self.pieces.len() - before;
         }
         self.chain.clear();
-        if self.segments >= MOST_SEGMENTS {
+        if self.segments >= MOST_KEPT {
             self.coarsen(survey);
         }
     }
@@ -210,4 +220,87 @@ fn put_chain(chain: &[[f64; 3]], like: &Piece, tolerance_mm: f64, pieces: &mut V
     simplify(chain, tolerance_mm, &mut points);
     let straight = points.windows(2).map(|pair| Piece { from: pair[0], to: pair[1], arc: None, ..*like });
     pieces.extend(straight.filter(|piece| piece.from != piece.to));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simplify::Line;
+    use crate::stroke::{Arc, Kind, Plane};
+
+    /// Pushes pieces and gives what is kept of them.
+    fn kept(pieces: impl Iterator<Item = Piece>) -> (KeptPath, Survey) {
+        let (mut path, mut survey) = (KeptPath::new(), Survey::new());
+        for piece in pieces {
+            survey.note(&piece, 1);
+            path.push(&piece, &survey);
+            assert!(path.segments <= MOST_KEPT + WINDOW);
+        }
+        (path, survey)
+    }
+
+    fn straight(from: [f64; 3], to: [f64; 3], feed: f64) -> Piece {
+        Piece { kind: Kind::Feed, from, to, arc: None, feed }
+    }
+
+    fn surface(row: usize, column: usize) -> [f64; 3] {
+        let column = if row.is_multiple_of(2) { column } else { 999 - column };
+        let [x, y] = [column as f64 * 0.2, row as f64 * 0.2];
+        [x, y, 6.0 * libm::sin(x / 11.0) * libm::cos(y / 14.0)]
+    }
+
+    #[test]
+    fn a_coarsened_surface_is_everywhere_near_its_place() {
+        let points: Vec<_> = (0..500_000).map(|nth| surface(nth / 1000, nth % 1000)).collect();
+        let (path, survey) = kept(points.windows(2).map(|pair| straight(pair[0], pair[1], 900.0)));
+        let drawn = path.drawn(&survey);
+        assert!(path.tolerance_mm > COLLINEAR_MM, "the bound was reached");
+        assert_eq!(drawn.visible_error_mm, None);
+        let segments: usize = drawn.pieces.iter().map(Piece::segments).sum();
+        assert!(segments <= MOST_DRAWN);
+        let lines: Vec<Line> = drawn.pieces.iter().map(|piece| Line::new(piece.from, piece.to)).collect();
+        let allowed_mm = survey.subject().span() / 4000.0;
+        for point in points.iter().step_by(2477) {
+            let nearest = lines.iter().map(|line| line.distance_squared(*point)).fold(f64::INFINITY, f64::min).sqrt();
+            assert!(nearest <= allowed_mm, "{nearest} mm away, {allowed_mm} allowed");
+        }
+        // Nothing was drawn that is not on the surface.
+        for piece in drawn.pieces.iter().step_by(97) {
+            let [x, y, z] = std::array::from_fn(|axis| 0.5 * (piece.from[axis] + piece.to[axis]));
+            assert!((z - 6.0 * libm::sin(x / 11.0) * libm::cos(y / 14.0)).abs() <= 2.0 * allowed_mm);
+        }
+    }
+
+    #[test]
+    fn a_short_program_is_kept_as_it_is() {
+        let pieces = [
+            straight([0.0; 3], [10.0, 0.0, 0.0], 100.0),
+            straight([10.0, 0.0, 0.0], [20.0, 0.0, 0.0], 100.0),
+            straight([20.0, 0.0, 0.0], [30.0, 0.0, 0.0], 101.0),
+            straight([30.0, 0.0, 0.0], [30.0, 0.01, 0.0], 101.0),
+        ];
+        let (path, survey) = kept(pieces.into_iter());
+        let joined = straight([0.0; 3], [20.0, 0.0, 0.0], 100.0);
+        assert_eq!(path.drawn(&survey).pieces, [joined, pieces[2], pieces[3]], "only the collinear ones are joined");
+    }
+
+    #[test]
+    fn a_million_collinear_strokes_are_a_handful() {
+        let point = |nth: u32| [f64::from(nth) * 0.001, 0.0, 0.0];
+        let (path, survey) = kept((0..1_000_000).map(|nth| straight(point(nth), point(nth + 1), 100.0)));
+        assert!(path.drawn(&survey).pieces.len() < 2_500);
+    }
+
+    #[test]
+    fn many_circles_stay_circles_and_are_bounded() {
+        let circle = |nth: u32| {
+            let [x, y] = [f64::from(nth % 300), f64::from(nth / 300)];
+            let arc = Some(Arc { plane: Plane::Xy, center: [x, y], sweep_deg: 360.0 });
+            Piece { arc, ..straight([x + 2.0, y, 0.0], [x + 2.0, y, 0.0], 100.0) }
+        };
+        let (path, survey) = kept((0..60_000).map(circle));
+        let drawn = path.drawn(&survey);
+        assert!(drawn.pieces.iter().map(Piece::segments).sum::<usize>() <= MOST_DRAWN);
+        assert!(drawn.pieces.len() > 5_000 && drawn.pieces.iter().all(|piece| piece.arc.is_some()));
+    }
 }

@@ -7,7 +7,7 @@ use crate::layout::{MARGIN, SHEET_WIDTH};
 use crate::mark::MarkKind;
 use crate::palette::Palette;
 use crate::rect::Rect;
-use crate::scale::{Step, written};
+use crate::scale::{Step, written, written_range};
 use crate::sign::{draw_sign, hole_path};
 use crate::text::width;
 
@@ -17,6 +17,8 @@ const BETWEEN: f64 = 34.0;
 const LINE_SAMPLE: f64 = 34.0;
 const SIGN_SAMPLE: f64 = 18.0;
 const BAR: f64 = 420.0;
+/// The room for a number below the scale.
+const NUMBER: f64 = 48.0;
 /// A row with the continuous scale is higher: its numbers stand below it.
 const BAR_ROW: f64 = 50.0;
 
@@ -27,8 +29,8 @@ pub(crate) enum Entry {
     Rapid,
     /// One of a few feeds: its shade and value in mm/min.
     Feed(usize, f64),
-    /// The continuous scale of feeds.
-    Scale,
+    /// The continuous scale between two feeds in mm/min.
+    Scale(f64, f64),
     /// A drilled hole.
     Hole,
     /// A mark.
@@ -40,7 +42,9 @@ impl Entry {
         match self {
             Entry::Rapid => "rapid".to_owned(),
             Entry::Feed(_, feed) => format!("feed {} mm/min", written(*feed)),
-            Entry::Scale => "feed mm/min".to_owned(),
+            Entry::Scale(slowest, fastest) => {
+                format!("feed {} mm/min", written_range(slowest.round(), fastest.round()))
+            }
             Entry::Hole => "drilled hole".to_owned(),
             Entry::Sign(kind) => kind.name().to_owned(),
         }
@@ -50,12 +54,12 @@ impl Entry {
         match self {
             Entry::Rapid | Entry::Feed(..) => LINE_SAMPLE,
             Entry::Hole | Entry::Sign(_) => SIGN_SAMPLE,
-            Entry::Scale => 0.0,
+            Entry::Scale(..) => 0.0,
         }
     }
 
     fn width(&self) -> f64 {
-        let beside = if *self == Entry::Scale { BAR } else { self.sample() };
+        let beside = if matches!(self, Entry::Scale(..)) { BAR } else { self.sample() };
         beside + 10.0 + width(&self.text(), SIZE)
     }
 }
@@ -104,7 +108,7 @@ impl Legend {
 }
 
 fn row_height(row: &[Entry]) -> f64 {
-    if row.contains(&Entry::Scale) { BAR_ROW } else { ROW }
+    if row.iter().any(|entry| matches!(entry, Entry::Scale(..))) { BAR_ROW } else { ROW }
 }
 
 fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Palette) {
@@ -125,15 +129,17 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Pa
             canvas.path(&hole_path(middle, 5.0), &format!("stroke=\"{INK}\" stroke-width=\"1.4\""));
         }
         Entry::Sign(kind) => draw_sign(canvas, *kind, middle),
-        Entry::Scale => return draw_scale(canvas, [x, y], palette),
+        Entry::Scale(slowest, fastest) => {
+            return draw_scale(canvas, entry, [x, y], scale_ticks(*slowest, *fastest), palette);
+        }
     }
     let label = Label::new(entry.text(), [x + entry.sample() + 10.0, y], SIZE, Anchor::Start).centred();
     canvas.text(&label, INK);
 }
 
 /// Draws the continuous scale: the shades in equal ratios, with round numbers below.
-fn draw_scale(canvas: &mut Canvas, [x, y]: [f64; 2], palette: &Palette) {
-    let label = Label::new(Entry::Scale.text(), [x, y], SIZE, Anchor::Start).centred();
+fn draw_scale(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], ticks: Vec<f64>, palette: &Palette) {
+    let label = Label::new(entry.text(), [x, y], SIZE, Anchor::Start).centred();
     let left = x + width(&label.text, SIZE) + 10.0;
     canvas.text(&label, INK);
     let shades = palette.shades();
@@ -145,35 +151,35 @@ fn draw_scale(canvas: &mut Canvas, [x, y]: [f64; 2], palette: &Palette) {
         canvas.rect(&part, &format!("fill=\"{}\"", hex(palette.colour(shade))));
     }
     canvas.open(&format!("stroke=\"{AXIS}\" stroke-width=\"1\""));
-    let mut free_from = f64::NEG_INFINITY;
-    let mut numbers = Vec::new();
-    for feed in scale_ticks(palette) {
-        let at = left + palette.place(feed) * BAR;
+    for feed in &ticks {
+        let at = left + palette.place(*feed) * BAR;
         canvas.line([at, y + 6.0], [at, y + 11.0]);
-        let number = Label::new(written(feed), [at, y + 25.0], SIZE - 1.0, Anchor::Middle);
-        let room = number.room();
-        if room.x >= free_from && room.x >= x {
-            free_from = room.right() + 10.0;
-            numbers.push(number);
-        }
     }
     canvas.close();
-    numbers.iter().for_each(|number| canvas.text(number, INK));
+    for feed in ticks {
+        let at = left + palette.place(feed) * BAR;
+        canvas.text(&Label::new(written(feed), [at, y + 25.0], SIZE - 1.0, Anchor::Middle), INK);
+    }
 }
 
-/// Round feeds on the scale: 1, 2, 5 of every decade if the scale is wide, else equal steps.
-fn scale_ticks(palette: &Palette) -> Vec<f64> {
-    let Palette::Scale { slowest, fastest } = palette else {
-        return Vec::new();
-    };
+/// Round feeds on the scale, all so far apart that their numbers do not touch: 1, 2, 5 of every decade if the scale is
+/// wide, only 1 if it is very wide, else equal steps.
+fn scale_ticks(slowest: f64, fastest: f64) -> Vec<f64> {
+    // The scale is logarithmic: so much of a ratio, as a logarithm, has room for a number.
+    let apart = NUMBER / BAR * libm::log(fastest / slowest);
     if fastest / slowest < 8.0 {
-        return Step::at_least((fastest - slowest) / 8.0).ticks(*slowest, *fastest);
+        let least = fastest * (1.0 - libm::exp(-apart));
+        return Step::at_least(least.max(f64::MIN_POSITIVE)).ticks(slowest, fastest);
     }
+    let (mut feed, next) = if apart < libm::log(2.0) {
+        (Step::at_least(slowest).times(1.0), 1.5)
+    } else {
+        (libm::pow(10.0, libm::log10(slowest).ceil()), 8.0)
+    };
     let mut ticks = Vec::new();
-    let mut feed = Step::at_least(*slowest).times(1.0);
     while feed <= fastest * (1.0 + 1e-9) && ticks.len() < 60 {
         ticks.push(feed);
-        feed = Step::at_least(feed * 1.5).times(1.0);
+        feed = Step::at_least(feed * next).times(1.0);
     }
     ticks
 }
@@ -184,9 +190,10 @@ mod tests {
 
     #[test]
     fn the_scale_is_ticked_at_round_feeds() {
-        let ticks = |slowest, fastest| scale_ticks(&Palette::Scale { slowest, fastest });
-        assert_eq!(ticks(90.0, 1200.0), [100.0, 200.0, 500.0, 1000.0]);
-        assert_eq!(ticks(480.0, 620.0), [480.0, 500.0, 520.0, 540.0, 560.0, 580.0, 600.0, 620.0]);
+        assert_eq!(scale_ticks(90.0, 1200.0), [100.0, 200.0, 500.0, 1000.0]);
+        assert_eq!(scale_ticks(600.0, 4200.0), [1000.0, 2000.0, 3000.0, 4000.0]);
+        assert_eq!(scale_ticks(480.0, 620.0), [480.0, 500.0, 520.0, 540.0, 560.0, 580.0, 600.0, 620.0]);
+        assert_eq!(scale_ticks(3.0, 20_000.0), [10.0, 100.0, 1000.0, 10_000.0]);
     }
 
     #[test]

@@ -16,7 +16,7 @@ pub(crate) fn notes(content: &Content, views: &Views) -> Vec<String> {
     let mut notes = Vec::new();
     notes.extend(rapids_outside(content, views));
     notes.extend(marks_outside(content, views));
-    notes.extend(content.visible_error_mm.map(|error| {
+    notes.extend(content.drawn.visible_error_mm.map(|error| {
         format!("The program is long: lines are drawn to within {} mm of their place.", written(error.max(0.001)))
     }));
     notes
@@ -26,7 +26,7 @@ pub(crate) fn notes(content: &Content, views: &Views) -> Vec<String> {
 fn rapids_outside(content: &Content, views: &Views) -> Option<String> {
     let mut places: Vec<[f64; 3]> = Vec::new();
     let mut around = Extent::EMPTY;
-    for piece in content.pieces.iter().filter(|piece| piece.kind == Kind::Rapid) {
+    for piece in content.drawn.pieces.iter().filter(|piece| piece.kind == Kind::Rapid) {
         for end in [piece.from, piece.to] {
             if !views.show(end) {
                 around.include(end);

@@ -8,13 +8,13 @@ use crate::frame::frame;
 use crate::hole::{DownCut, down_cuts};
 use crate::ink::Ink;
 use crate::isometric_axes::{draw_isometric_axes, draw_isometric_floor};
+use crate::kept::Drawn;
 use crate::label::{Anchor, Label, Places};
 use crate::layout::{ISOMETRIC_INSET, Layout, MARGIN, PLAN_INSET, SHEET_WIDTH, layout};
 use crate::legend::{Entry, Legend};
 use crate::mark::Mark;
 use crate::notes::notes;
 use crate::palette::Palette;
-use crate::piece::Piece;
 use crate::plan_axes::{draw_plan_axes, draw_plan_grid};
 use crate::rect::Rect;
 use crate::scale::{written, written_length, written_range};
@@ -39,17 +39,15 @@ const MOST_NAMED_TOOLS: usize = 12;
 pub(crate) struct Content<'a> {
     pub title: &'a Title,
     pub survey: &'a Survey,
-    pub pieces: &'a [Piece],
+    pub drawn: &'a Drawn,
     pub marks: &'a [Mark],
-    /// How far from its place the path may be drawn in mm, if that can be seen.
-    pub visible_error_mm: Option<f64>,
 }
 
 /// The sheet as SVG.
 pub(crate) fn sheet(content: &Content) -> String {
     let palette = Palette::new(&content.survey.feeds);
-    let frame = frame(content.survey, content.pieces);
-    let cuts = down_cuts(content.pieces);
+    let frame = frame(content.survey, &content.drawn.pieces);
+    let cuts = down_cuts(&content.drawn.pieces);
     let size = |projection: Projection| {
         let flat = projection.flat_extent(&frame);
         [flat.width, flat.height]
@@ -146,8 +144,8 @@ fn draw_headings(canvas: &mut Canvas, layout: &Layout) {
 fn draw_plan(canvas: &mut Canvas, view: &View, content: &Content, palette: &Palette, cuts: &[DownCut]) {
     let mut places = Places::default();
     draw_plan_grid(canvas, view);
-    let ink = Ink::measure(view, content.pieces);
-    draw_strokes(canvas, view, content.pieces, palette, &ink);
+    let ink = Ink::measure(view, &content.drawn.pieces);
+    draw_strokes(canvas, view, &content.drawn.pieces, palette, &ink);
     draw_down_cuts(canvas, view, cuts, palette, &mut places);
     draw_plan_axes(canvas, view, &mut places);
     draw_marks(canvas, view, content.marks, &ink, &mut places);
@@ -157,22 +155,22 @@ fn draw_isometric(canvas: &mut Canvas, view: &View, content: &Content, palette: 
     let mut places = Places::default();
     canvas.rect(&view.panel, &format!("stroke=\"{GRID}\" stroke-width=\"1\""));
     draw_isometric_floor(canvas, view, frame);
-    let ink = Ink::measure(view, content.pieces);
-    draw_strokes(canvas, view, content.pieces, palette, &ink);
+    let ink = Ink::measure(view, &content.drawn.pieces);
+    draw_strokes(canvas, view, &content.drawn.pieces, palette, &ink);
     draw_isometric_axes(canvas, view, frame, &mut places);
     draw_marks(canvas, view, content.marks, &ink, &mut places);
 }
 
 fn entries(content: &Content, views: &Views, palette: &Palette, cuts: &[DownCut]) -> Vec<Entry> {
     let mut entries = Vec::new();
-    if content.pieces.iter().any(|piece| piece.kind == Kind::Rapid) {
+    if content.drawn.pieces.iter().any(|piece| piece.kind == Kind::Rapid) {
         entries.push(Entry::Rapid);
     }
     match palette {
         Palette::Few(feeds) => {
             entries.extend(feeds.iter().enumerate().map(|(shade, feed)| Entry::Feed(shade, *feed)));
         }
-        Palette::Scale { .. } => entries.push(Entry::Scale),
+        Palette::Scale { slowest, fastest } => entries.push(Entry::Scale(*slowest, *fastest)),
     }
     if cuts.iter().any(|cut| cut.is_hole) {
         entries.push(Entry::Hole);

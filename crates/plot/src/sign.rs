@@ -19,6 +19,9 @@ const LABEL_SIZE: f64 = 14.0;
 /// Marks closer than this on the sheet share one sign.
 const TOGETHER: f64 = 4.0;
 
+/// A label has so many places around its sign; farther ones come after them, and are chosen only to keep much free.
+const AROUND: usize = 8;
+
 /// A shared sign names so many of its marks.
 const MOST_NAMES: usize = 4;
 
@@ -101,7 +104,7 @@ pub(crate) fn draw_marks(canvas: &mut Canvas, view: &View, marks: &[Mark], ink: 
 /// The place where a label hides the least of the path. One that must be seen is placed even over other signs.
 fn best_place(around: Vec<Label>, view: &View, ink: &Ink, places: &Places, must_be_seen: bool) -> Option<Label> {
     let inside: Vec<Label> = around.into_iter().filter(|label| view.panel.grown(-4.0).holds(&label.room())).collect();
-    let hidden = |(rank, label): &(usize, &Label)| 2 * ink.under(&label.room()) + rank;
+    let hidden = |(rank, label): &(usize, &Label)| ink.under(&label.room()) + rank + 8 * (rank / AROUND) * AROUND;
     let free = inside.iter().enumerate().filter(|(_, label)| places.is_free(label)).min_by_key(hidden);
     let any = || inside.iter().enumerate().min_by_key(hidden).filter(|_| must_be_seen);
     free.or_else(any).map(|(_, label)| label.clone())

@@ -52,7 +52,9 @@ pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], p
         }
     }
     let width = short(ink.feed_weight);
-    canvas.open(&format!("stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\""));
+    // Where the colour changes along a line, round ends would lie over each other as dots.
+    let ends = if matches!(palette, Palette::Few(_)) { "round" } else { "butt" };
+    canvas.open(&format!("stroke-width=\"{width}\" stroke-linecap=\"{ends}\" stroke-linejoin=\"round\""));
     // The slow feeds lie on top: they are few, and dark.
     for (shade, path) in paths.into_iter().enumerate().rev() {
         let parts = path.finish();

@@ -1,1 +1,17 @@
-//! (to come)
+//! Events and diagnostics as text: the trace, the summary, the faces of a diagnostic, a control's table.
+//!
+//! Comes in: events and diagnostics as values. Goes out: text in a buffer. Must never know: where it is printed.
+
+mod control_table;
+mod excerpt;
+mod face;
+mod json;
+mod summary;
+mod trace;
+
+pub use control_table::{control_list, control_table};
+pub use excerpt::Excerpt;
+pub use face::{Format, begin, end, render, separator};
+pub use json::{JsonLine, push_number};
+pub use summary::Summary;
+pub use trace::Tracer;

@@ -13,6 +13,6 @@ mod setup;
 pub use configuration::{Configuration, ConfigurationError, Inputs};
 pub use library::{Library, LibraryError};
 pub use operator::{Operator, Said, Shown};
-pub use script::{Action, ScriptError, Show, Until, read_script};
+pub use script::{Action, ScriptError, Show, Until, read_script, split_switch};
 pub use session::{AfterAlarm, Session, SessionSwitches, Step};
 pub use setup::{OffsetColumn, Setup, read_setup};

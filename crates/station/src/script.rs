@@ -124,7 +124,10 @@ fn read_action(line: &str) -> Result<Action, String> {
 }
 
 /// A switch as users write it: `optional-stop`, `block-delete=2`.
-pub(crate) fn split_switch(text: &str) -> Result<(String, Option<u8>), String> {
+///
+/// # Errors
+/// A number where none may be, or one that no switch has.
+pub fn split_switch(text: &str) -> Result<(String, Option<u8>), String> {
     match text.split_once('=') {
         None => Ok((text.to_owned(), None)),
         Some(("block-delete", number)) => match number.parse() {

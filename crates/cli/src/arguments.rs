@@ -1,0 +1,182 @@
+//! The command line: every command, every option, its help and an example.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Executes part programs exactly as the machining-centre controls they were written for would.
+#[derive(Parser, Debug)]
+#[command(
+    name = "cyclestart",
+    version,
+    max_term_width = 100,
+    after_help = "Exit codes: 0 done; 1 the control raised an alarm; 2 the call is wrong; 3 internal error.\n\n\
+                  Example:\n  cyclestart run examples/plate.nc --offset 1=120 --offset 31=8"
+)]
+pub struct CommandLine {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Run a program on the virtual machine to its end, with progress and a summary
+    #[command(after_help = "Example:\n  cyclestart run part.nc --setup part.setup.toml --switch optional-stop")]
+    Run(RunArguments),
+    /// Find every alarm the control would raise, without motion
+    #[command(after_help = "Example:\n  cyclestart check programs/ --format github")]
+    Check(CheckArguments),
+    /// Print every executed event as JSON Lines
+    #[command(after_help = "Example:\n  cyclestart trace part.nc --time | head")]
+    Trace(TraceArguments),
+    /// Perform an operator's script and print the events as JSON Lines
+    #[command(after_help = "Example:\n  printf 'load part.nc as O1\\nselect O1\\ncycle-start\\nrun until stop\\nshow modal\\n' | cyclestart operate -")]
+    Operate(OperateArguments),
+    /// Draw the tool path as SVG or PNG
+    #[command(after_help = "Example:\n  cyclestart plot part.nc -o part.svg")]
+    Plot(PlotArguments),
+    /// List the controls, or print one control's tables
+    #[command(after_help = "Example:\n  cyclestart controls yasnac-mx1")]
+    Controls(ControlsArguments),
+}
+
+/// The control, its machine, and what is set on both.
+#[derive(Args, Debug, Clone)]
+pub struct SettingArguments {
+    /// The control
+    #[arg(long, value_name = "NAME", default_value = "yasnac-mx1")]
+    pub control: String,
+    /// Take the controls' tables from this folder instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub controls: Option<PathBuf>,
+    /// The machine builder's file, or the name of a built-in machine [default: the control's stock machine]
+    #[arg(long, value_name = "NAME|FILE.toml")]
+    pub machine: Option<String>,
+    /// Offsets, work coordinates, parameters, switches, start position
+    #[arg(long, value_name = "FILE.toml")]
+    pub setup: Option<PathBuf>,
+    /// One offset in mm, such as 31=10.0
+    #[arg(long, value_name = "N=MM", allow_hyphen_values = true)]
+    pub offset: Vec<String>,
+    /// One work coordinate system in machine mm, such as G54=X100,Y50,Z-20
+    #[arg(long, value_name = "Gnn=X…,Y…")]
+    pub work: Vec<String>,
+    /// One parameter or one bit of it, such as 6005=0b100 or 6005.2=1
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub parameter: Vec<String>,
+    /// A switch that is on: optional-stop, block-delete[=n], single-block
+    #[arg(long, value_name = "NAME")]
+    pub switch: Vec<String>,
+    /// Where subprograms are looked up after the file itself and its own folder
+    #[arg(long, value_name = "DIR")]
+    pub library: Option<PathBuf>,
+    /// An option of the control, fitted or not
+    #[arg(long, value_name = "NAME=on|off")]
+    pub option: Vec<String>,
+    /// A behaviour on which the maker's text is silent
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub policy: Vec<String>,
+    /// Run the program this many times in a row, as for so many pieces
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    pub repeat: u64,
+    /// Jumps and macro statements allowed without motion, dwell or stop before the alarm ENDLESS_LOOP
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    pub loop_limit: u64,
+}
+
+/// `run`
+#[derive(Args, Debug)]
+pub struct RunArguments {
+    /// The program, - for standard input
+    pub file: String,
+    /// Print the summary as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// The control and its set-up.
+    #[command(flatten)]
+    pub setting: SettingArguments,
+}
+
+/// How diagnostics are printed.
+#[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FormatArgument {
+    /// For people.
+    Text,
+    /// A JSON array.
+    Json,
+    /// SARIF 2.1.0.
+    Sarif,
+    /// Annotations for a forge.
+    Github,
+}
+
+/// `check`
+#[derive(Args, Debug)]
+pub struct CheckArguments {
+    /// Programs, folders or patterns, - for standard input
+    #[arg(required = true)]
+    pub files: Vec<String>,
+    /// How findings are printed
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: FormatArgument,
+    /// The control and its set-up.
+    #[command(flatten)]
+    pub setting: SettingArguments,
+}
+
+/// `trace`
+#[derive(Args, Debug)]
+pub struct TraceArguments {
+    /// The program, - for standard input
+    pub file: String,
+    /// Every event carries its virtual time
+    #[arg(long)]
+    pub time: bool,
+    /// The machine's answers to codes are events too
+    #[arg(long)]
+    pub io: bool,
+    /// The control and its set-up.
+    #[command(flatten)]
+    pub setting: SettingArguments,
+}
+
+/// `operate`
+#[derive(Args, Debug)]
+pub struct OperateArguments {
+    /// The operator's script, - for standard input
+    pub script: String,
+    /// The machine's answers to codes are events too
+    #[arg(long)]
+    pub io: bool,
+    /// The control and its set-up.
+    #[command(flatten)]
+    pub setting: SettingArguments,
+}
+
+/// `plot`
+#[derive(Args, Debug)]
+pub struct PlotArguments {
+    /// The program, - for standard input
+    pub file: String,
+    /// The picture to write: its ending, .svg or .png, says which kind
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Width of a PNG in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(200..=8000))]
+    pub width: u32,
+    /// The control and its set-up.
+    #[command(flatten)]
+    pub setting: SettingArguments,
+}
+
+/// `controls`
+#[derive(Args, Debug)]
+pub struct ControlsArguments {
+    /// The control whose tables are printed
+    pub name: Option<String>,
+    /// Take the controls' tables from this folder instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub controls: Option<PathBuf>,
+}

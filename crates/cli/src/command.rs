@@ -1,0 +1,56 @@
+//! The commands, one file each, and what running a program has in common.
+
+pub mod check;
+pub mod controls;
+pub mod operate;
+pub mod plot;
+pub mod run;
+pub mod trace;
+
+use base::ProgramId;
+use machine::Event;
+use station::{Session, Step};
+
+use crate::arguments::SettingArguments;
+use crate::failure::Failure;
+use crate::setting;
+use crate::texts::Texts;
+
+/// A session with the program of `file` selected.
+pub fn open(file: &str, arguments: &SettingArguments) -> Result<Session<Texts>, Failure> {
+    let configuration = setting::configuration(arguments)?;
+    let mut texts = setting::texts(file, arguments)?;
+    let source = texts.open(file)?;
+    let mut session = Session::new(configuration, texts);
+    session.interpreter_mut().set_loop_limit(arguments.loop_limit);
+    session.select(source, &Texts::program_name(file));
+    Ok(session)
+}
+
+/// Runs the program to its end, `repeat` times, pressing CYCLE START after every stop. Events go to `see`.
+pub fn run_through(
+    session: &mut Session<Texts>,
+    repeat: u64,
+    mut see: impl FnMut(&mut Session<Texts>, &Event) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    for piece in 0..repeat {
+        if piece == 0 { session.start() } else { session.start_over() }
+        loop {
+            match session.next() {
+                Step::Event(event) => see(session, &event)?,
+                Step::Stopped => session.start(),
+                Step::Idle => break,
+                Step::Failed(error) => return Err(Failure::call(error)),
+            }
+        }
+        if session.alarm().is_some() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// A program's name.
+pub fn name_of(session: &Session<Texts>, program: ProgramId) -> &str {
+    session.interpreter().program_name(program)
+}

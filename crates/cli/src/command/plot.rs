@@ -1,0 +1,92 @@
+//! `plot`: the tool path as a picture.
+
+use std::fs;
+
+use base::Point;
+use machine::EventKind;
+use meaning::{CodeLine, Plane};
+use plot::{Arc, Drawing, Kind, Mark, MarkKind, Stroke, Title};
+use report::{Format, render};
+
+use super::{name_of, open, run_through};
+use crate::arguments::PlotArguments;
+use crate::failure::Failure;
+use crate::output::colour_err;
+use crate::show_alarm::show_alarm;
+
+/// What a picture can be.
+enum Picture {
+    Svg,
+    Png,
+}
+
+/// The machine code that changes tools, by custom of the trade; the mark stands where it is sent.
+const TOOL_CHANGE: u32 = 6;
+
+pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
+    let output = &arguments.output;
+    let ending = output.extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase());
+    let picture = match ending.as_str() {
+        "svg" => Picture::Svg,
+        "png" => Picture::Png,
+        "html" => return Err(Failure::call("the HTML viewer is not built yet; write .svg or .png")),
+        _ => return Err(Failure::call(format!("{}: end the picture's name with .svg or .png", output.display()))),
+    };
+    let mut session = open(&arguments.file, &arguments.setting)?;
+    let configuration = session.configuration().clone();
+    let (control, machine) = (&configuration.control, &configuration.machine);
+    let axes = [b'X', b'Y', b'Z'].map(|letter| machine.axes.iter().position(|axis| axis.letter == letter));
+    let at = |point: &Point| axes.map(|axis| axis.map_or(0.0, |axis| point[axis]));
+    let mut drawing: Option<Drawing> = None;
+    let title = |program: &str| Title {
+        program: program.to_owned(),
+        control: control.title.clone(),
+        machine: machine.name.clone(),
+    };
+    let (mut tool, mut alarmed) = (0, false);
+    run_through(&mut session, arguments.setting.repeat, |session, event| {
+        let position = at(session.position());
+        let drawing = drawing.get_or_insert_with(|| Drawing::new(title(name_of(session, event.place.program))));
+        let mut mark = |kind, text: String| drawing.mark(Mark { at: position, kind, text });
+        match &event.kind {
+            EventKind::Start(_) => mark(MarkKind::Start, String::new()),
+            EventKind::Rapid { from, to, .. } => {
+                drawing.stroke(&Stroke { kind: Kind::Rapid, from: at(from), to: at(to), arc: None, feed: 0.0, tool });
+            }
+            EventKind::Feed { from, to, feed, .. } => {
+                drawing.stroke(&Stroke { kind: Kind::Feed, from: at(from), to: at(to), arc: None, feed: *feed, tool });
+            }
+            EventKind::Arc { arc, feed, .. } => {
+                let plane = match arc.plane {
+                    Plane::Xy => plot::Plane::Xy,
+                    Plane::Zx => plot::Plane::Zx,
+                    Plane::Yz => plot::Plane::Yz,
+                };
+                let shape = Arc { plane, center: arc.center, sweep_deg: arc.sweep.to_degrees() };
+                let (from, to) = (at(&arc.from), at(&arc.to));
+                drawing.stroke(&Stroke { kind: Kind::Feed, from, to, arc: Some(shape), feed: *feed, tool });
+            }
+            EventKind::Code(code) if code.line == CodeLine::T => tool = code.code,
+            EventKind::Code(code) if code.line == CodeLine::M && code.code == TOOL_CHANGE => {
+                mark(MarkKind::ToolChange(tool), String::new());
+            }
+            EventKind::Stop(_) => mark(MarkKind::Stop, String::new()),
+            EventKind::End { .. } => mark(MarkKind::End, String::new()),
+            EventKind::Alarm(alarm) => {
+                alarmed = true;
+                let (diagnostic, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
+                eprint!("{}", render(&diagnostic, &excerpt, Format::Text { colour: colour_err() }));
+                mark(MarkKind::Alarm, diagnostic.alarm.map_or_else(String::new, |alarm| alarm.name));
+            }
+            _ => {}
+        }
+        Ok(())
+    })?;
+    let drawing = drawing.unwrap_or_else(|| Drawing::new(title("")));
+    let bytes = match picture {
+        Picture::Svg => drawing.svg().into_bytes(),
+        Picture::Png => drawing.png(arguments.width).map_err(Failure::call)?,
+    };
+    fs::write(output, bytes).map_err(|e| Failure::call(format!("cannot write {}: {e}", output.display())))?;
+    Ok(!alarmed)
+}

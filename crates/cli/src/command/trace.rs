@@ -1,0 +1,36 @@
+//! `trace`: every executed event as JSON Lines.
+
+use machine::EventKind;
+use report::{Format, Tracer, render};
+
+use super::{open, run_through};
+use crate::arguments::TraceArguments;
+use crate::failure::Failure;
+use crate::output::{Output, colour_err};
+use crate::show_alarm::show_alarm;
+
+pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
+    let mut session = open(&arguments.file, &arguments.setting)?;
+    let configuration = session.configuration().clone();
+    let (control, machine) = (&configuration.control, &configuration.machine);
+    let mut tracer = Tracer::new(control, &machine.name, machine.axes.iter().map(|axis| axis.letter));
+    tracer.with_time = arguments.time;
+    tracer.with_io = arguments.io;
+    let mut output = Output::new();
+    let mut alarmed = false;
+    run_through(&mut session, arguments.setting.repeat, |session, event| {
+        let mut diagnostic = None;
+        if let EventKind::Alarm(alarm) = &event.kind {
+            alarmed = true;
+            let (found, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
+            output.flush()?;
+            eprint!("{}", render(&found, &excerpt, Format::Text { colour: colour_err() }));
+            diagnostic = Some(found);
+        }
+        let interpreter = session.interpreter();
+        tracer.write(event, |program| interpreter.program_name(program), diagnostic.as_ref(), &mut output.buffer);
+        output.pass()
+    })?;
+    output.flush()?;
+    Ok(!alarmed)
+}

@@ -1,0 +1,49 @@
+//! Standard output, buffered, and whether a terminal is there.
+
+use std::io::{self, IsTerminal, Write};
+
+use crate::failure::Failure;
+
+/// Bytes gathered before they are written.
+const ENOUGH: usize = 64 * 1024;
+
+/// Standard output through one buffer.
+pub struct Output {
+    /// What waits to be written.
+    pub buffer: Vec<u8>,
+}
+
+impl Output {
+    /// Nothing written yet.
+    pub fn new() -> Output {
+        Output { buffer: Vec::with_capacity(2 * ENOUGH) }
+    }
+
+    /// Writes what has been gathered, if it is enough.
+    pub fn pass(&mut self) -> Result<(), Failure> {
+        if self.buffer.len() >= ENOUGH { self.flush() } else { Ok(()) }
+    }
+
+    /// Writes what has been gathered.
+    pub fn flush(&mut self) -> Result<(), Failure> {
+        let mut out = io::stdout().lock();
+        out.write_all(&self.buffer)?;
+        out.flush()?;
+        self.buffer.clear();
+        Ok(())
+    }
+}
+
+fn wants_colour() -> bool {
+    std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// Colour on standard output.
+pub fn colour_out() -> bool {
+    io::stdout().is_terminal() && wants_colour()
+}
+
+/// Colour on standard error.
+pub fn colour_err() -> bool {
+    io::stderr().is_terminal() && wants_colour()
+}

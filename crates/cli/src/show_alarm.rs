@@ -1,0 +1,22 @@
+//! An alarm with its source line.
+
+use base::{Alarm, Diagnostic};
+use dialect::Control;
+use machine::MachineFile;
+use report::Excerpt;
+
+use crate::texts::Texts;
+
+/// Longest stretch of a line that is read to show it.
+const LINE: usize = 16 * 1024;
+
+/// The alarm in words, and the line it stands on.
+pub fn show_alarm(alarm: &Alarm, control: &Control, machine: &MachineFile, texts: &mut Texts) -> (Diagnostic, Excerpt) {
+    let place = &alarm.place;
+    let column = place.column(alarm.span);
+    let bytes = texts.excerpt(place.source, place.line_start, LINE.max((column as usize).min(1 << 20) + 256));
+    let excerpt = Excerpt::new(texts.name(place.source), place.line, &bytes, column, alarm.span.len);
+    let axis = alarm.axis.and_then(|axis| machine.axes.get(usize::from(axis)));
+    let axis = axis.map(|axis| (char::from(axis.letter), axis.rotary));
+    (control.diagnose(alarm, &excerpt.word, axis), excerpt)
+}

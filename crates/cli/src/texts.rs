@@ -1,0 +1,178 @@
+//! Program texts on disk: files, standard input spooled to a temporary file, subprograms by their number.
+
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use base::SourceId;
+use station::{Library, LibraryError};
+
+use crate::failure::Failure;
+
+/// Endings under which a subprogram's file is looked for; none is tried first.
+const ENDINGS: &[&str] = &["", "nc", "cnc", "tap", "eia", "txt"];
+
+struct Source {
+    /// The name as the user gave it.
+    name: String,
+    file: File,
+    /// Where the file is read next without seeking.
+    at: u64,
+    /// Standard input not yet spooled.
+    rest: Option<io::Stdin>,
+    /// Bytes of the file known to exist.
+    length: u64,
+}
+
+/// The texts.
+pub struct Texts {
+    sources: Vec<Source>,
+    folders: Vec<PathBuf>,
+}
+
+impl Texts {
+    /// No texts yet; subprograms are looked up in these folders, in their order.
+    pub fn new(folders: Vec<PathBuf>) -> Texts {
+        Texts { sources: Vec::new(), folders }
+    }
+
+    /// Opens a program, `-` for standard input.
+    pub fn open(&mut self, name: &str) -> Result<SourceId, Failure> {
+        if name == "-" {
+            let file = tempfile::tempfile().map_err(|e| Failure::call(format!("no room for standard input: {e}")))?;
+            return Ok(self.push(Source { name: "<stdin>".into(), file, at: 0, rest: Some(io::stdin()), length: 0 }));
+        }
+        let cannot = |error: io::Error| Failure::call(format!("cannot read {name}: {error}"));
+        let file = File::open(name).map_err(cannot)?;
+        let facts = file.metadata().map_err(cannot)?;
+        if facts.is_dir() {
+            return Err(Failure::call(format!("cannot read {name}: it is a folder")));
+        }
+        Ok(self.push(Source { name: name.to_owned(), file, at: 0, rest: None, length: facts.len() }))
+    }
+
+    fn push(&mut self, source: Source) -> SourceId {
+        self.sources.push(source);
+        SourceId((self.sources.len() - 1) as u32)
+    }
+
+    /// The name of a source as the user gave it.
+    pub fn name(&self, source: SourceId) -> &str {
+        self.sources.get(source.0 as usize).map_or("?", |source| source.name.as_str())
+    }
+
+    /// How long a source is, as far as that is known.
+    pub fn length(&self, source: SourceId) -> u64 {
+        self.sources.get(source.0 as usize).map_or(0, |source| source.length)
+    }
+
+    /// Bytes of a source for showing them; what cannot be read is left out.
+    pub fn excerpt(&mut self, source: SourceId, offset: u64, len: usize) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let _ = self.read(source, offset, len, &mut bytes);
+        bytes
+    }
+
+    /// The name that a program has unless an O word gives it one.
+    pub fn program_name(file: &str) -> String {
+        match file {
+            "-" => "stdin".to_owned(),
+            _ => Path::new(file).file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned()),
+        }
+    }
+}
+
+impl Source {
+    /// Spools standard input until the file holds `end` bytes or the input has ended.
+    fn spool(&mut self, end: u64) -> io::Result<()> {
+        let Some(input) = &mut self.rest else { return Ok(()) };
+        let mut chunk = [0u8; 16 * 1024];
+        while self.length < end {
+            let count = match input.read(&mut chunk) {
+                Ok(count) => count,
+                Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+                Err(error) => return Err(error),
+            };
+            if count == 0 {
+                self.rest = None;
+                break;
+            }
+            self.file.seek(SeekFrom::Start(self.length))?;
+            self.file.write_all(&chunk[..count])?;
+            self.length += count as u64;
+            self.at = self.length;
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, offset: u64, len: usize, bytes: &mut Vec<u8>) -> io::Result<bool> {
+        self.spool(offset + len as u64 + 1)?;
+        bytes.clear();
+        if self.at != offset {
+            self.file.seek(SeekFrom::Start(offset))?;
+        }
+        let taken = Read::by_ref(&mut self.file).take(len as u64).read_to_end(bytes)?;
+        self.at = offset + taken as u64;
+        Ok(taken < len || (self.rest.is_none() && self.at >= self.length && self.is_at_end()?))
+    }
+
+    /// A file may have grown since it was opened.
+    fn is_at_end(&mut self) -> io::Result<bool> {
+        Ok(self.file.metadata()?.len() <= self.at)
+    }
+}
+
+impl Library for Texts {
+    fn read(&mut self, source: SourceId, offset: u64, len: usize, bytes: &mut Vec<u8>) -> Result<bool, LibraryError> {
+        let Some(source) = self.sources.get_mut(source.0 as usize) else {
+            bytes.clear();
+            return Ok(true);
+        };
+        source.read(offset, len, bytes).map_err(|error| LibraryError(format!("cannot read {}: {error}", source.name)))
+    }
+
+    fn find_program(&mut self, number: u32) -> Result<Option<SourceId>, LibraryError> {
+        for folder in self.folders.clone() {
+            let Some(path) = find_file(&folder, number) else { continue };
+            let name = path.to_string_lossy().into_owned();
+            if let Some(index) = self.sources.iter().position(|source| source.name == name) {
+                return Ok(Some(SourceId(index as u32)));
+            }
+            return match self.open(&name) {
+                Ok(source) => Ok(Some(source)),
+                Err(_) => Err(LibraryError(format!("cannot read {name}"))),
+            };
+        }
+        Ok(None)
+    }
+}
+
+/// The file of a program number in a folder: `O4321` with any of the endings, in any case of letters.
+fn find_file(folder: &Path, number: u32) -> Option<PathBuf> {
+    let mut found: Vec<(usize, PathBuf)> = Vec::new();
+    for entry in fs::read_dir(folder).ok()?.flatten() {
+        let path = entry.path();
+        let stem = path.file_stem()?.to_str().unwrap_or_default();
+        let digits = stem.strip_prefix(['O', 'o']).unwrap_or_default();
+        let is_number = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) && digits.parse() == Ok(number);
+        let ending = path.extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase());
+        if let (true, Some(rank)) = (is_number, ENDINGS.iter().position(|known| *known == ending))
+            && path.is_file()
+        {
+            found.push((rank, path));
+        }
+    }
+    found.sort();
+    found.into_iter().next().map(|(_, path)| path)
+}
+
+/// True for files that are programs by their name: one of the endings, or `O` and digits.
+pub fn looks_like_program(path: &Path) -> bool {
+    let ending = path.extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase());
+    if ending.is_empty() {
+        let stem = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+        let digits = stem.strip_prefix(['O', 'o']).unwrap_or_default();
+        return !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
+    }
+    ENDINGS.contains(&ending.as_str())
+}

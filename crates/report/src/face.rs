@@ -1,0 +1,163 @@
+//! The faces of a diagnostic: for people at a terminal, as JSON, as SARIF, as annotations of a forge.
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use base::{Diagnostic, Severity};
+
+use crate::excerpt::Excerpt;
+use crate::json::JsonLine;
+
+/// How diagnostics are shown.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Format {
+    /// For people; in colour if asked for.
+    Text {
+        /// With colour.
+        colour: bool,
+    },
+    /// A JSON array of objects.
+    Json,
+    /// SARIF 2.1.0.
+    Sarif,
+    /// Workflow commands that a forge shows beside the line.
+    Github,
+}
+
+/// What stands before the first diagnostic.
+pub fn begin(format: Format) -> &'static str {
+    match format {
+        Format::Json => "[",
+        Format::Sarif => concat!(
+            "{\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\"version\":\"2.1.0\",\"runs\":[{\"tool\":",
+            "{\"driver\":{\"name\":\"cyclestart\",\"version\":\"",
+            env!("CARGO_PKG_VERSION"),
+            "\"}},\"results\":["
+        ),
+        Format::Text { .. } | Format::Github => "",
+    }
+}
+
+/// What stands between two diagnostics.
+pub fn separator(format: Format) -> &'static str {
+    match format {
+        Format::Json | Format::Sarif => ",\n",
+        Format::Text { .. } => "\n",
+        Format::Github => "",
+    }
+}
+
+/// What stands after the last diagnostic.
+pub fn end(format: Format) -> &'static str {
+    match format {
+        Format::Json => "]\n",
+        Format::Sarif => "]}]}\n",
+        Format::Text { .. } | Format::Github => "",
+    }
+}
+
+/// A diagnostic in one of its faces.
+pub fn render(diagnostic: &Diagnostic, excerpt: &Excerpt, format: Format) -> String {
+    match format {
+        Format::Text { colour } => text(diagnostic, excerpt, colour),
+        Format::Json => json(diagnostic, excerpt),
+        Format::Sarif => sarif(diagnostic, excerpt),
+        Format::Github => github(diagnostic, excerpt),
+    }
+}
+
+fn text(diagnostic: &Diagnostic, excerpt: &Excerpt, colour: bool) -> String {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let name = match &diagnostic.alarm {
+        Some(alarm) => match alarm.number {
+            Some(number) => format!("alarm {} ({number:03})", alarm.name),
+            None => format!("alarm {}", alarm.name),
+        },
+        None => String::new(),
+    };
+    let line = usize::try_from(excerpt.line).unwrap_or(usize::MAX);
+    let snippet = Snippet::source(&excerpt.text)
+        .line_start(line)
+        .path(&excerpt.file)
+        .annotation(AnnotationKind::Primary.span(excerpt.from..excerpt.to).label(&name));
+    let group = level
+        .primary_title(&diagnostic.message)
+        .id(diagnostic.code)
+        .element(snippet)
+        .element(Level::NOTE.with_name("why").message(&diagnostic.why))
+        .element(Level::HELP.message(&diagnostic.help));
+    let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+    format!("{}\n", renderer.render(&[group]))
+}
+
+fn json(diagnostic: &Diagnostic, excerpt: &Excerpt) -> String {
+    let mut out = Vec::new();
+    let mut line = JsonLine::begin(&mut out);
+    line.text("file", &excerpt.file)
+        .integer("line", excerpt.line)
+        .integer("column", excerpt.column)
+        .integer("offset", diagnostic.span.start)
+        .integer("length", u64::from(diagnostic.span.len))
+        .text("severity", diagnostic.severity.name())
+        .text("code", diagnostic.code);
+    if let Some(alarm) = &diagnostic.alarm {
+        line.text("alarm", &alarm.name);
+        if let Some(number) = alarm.number {
+            line.integer("number", u64::from(number));
+        }
+    }
+    line.text("word", &excerpt.word)
+        .text("message", &diagnostic.message)
+        .text("why", &diagnostic.why)
+        .text("help", &diagnostic.help);
+    line.end();
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+fn sarif(diagnostic: &Diagnostic, excerpt: &Excerpt) -> String {
+    let mut out = Vec::new();
+    let mut line = JsonLine::begin(&mut out);
+    line.text("ruleId", diagnostic.code).text("level", diagnostic.severity.name());
+    line.object("message", |message| {
+        let text = format!("{}. {} {}", diagnostic.message, sentence(&diagnostic.why), sentence(&diagnostic.help));
+        message.text("text", &text);
+    });
+    let location = line.field("locations");
+    location.push(b'[');
+    let mut object = JsonLine::begin(location);
+    object.object("physicalLocation", |physical| {
+        physical.object("artifactLocation", |artifact| {
+            artifact.text("uri", &excerpt.file);
+        });
+        physical.object("region", |region| {
+            region.integer("startLine", excerpt.line).integer("startColumn", excerpt.column);
+            region.integer("endColumn", excerpt.column + u64::from(diagnostic.span.len));
+        });
+    });
+    object.end();
+    location.push(b']');
+    line.end();
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
+}
+
+fn github(diagnostic: &Diagnostic, excerpt: &Excerpt) -> String {
+    let escape = |text: &str| text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A");
+    let property = |text: &str| escape(text).replace(':', "%3A").replace(',', "%2C");
+    let Excerpt { file, line, column, .. } = excerpt;
+    format!(
+        "::{} file={},line={line},col={column},title={}::{}%0A{}%0A{}\n",
+        diagnostic.severity.name(),
+        property(file),
+        property(diagnostic.code),
+        escape(&diagnostic.message),
+        escape(&diagnostic.why),
+        escape(&diagnostic.help),
+    )
+}
