@@ -22,7 +22,7 @@ pub trait Machine {
     ///
     /// # Errors
     /// The move would leave the travel: nothing of it has been executed (or the part up to the border, by policy).
-    fn execute(&mut self, timed: &Timed, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal>;
+    fn execute(&mut self, timed: &Timed<'_>, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal>;
 
     /// The block is done: waits for the machine's answers to its codes.
     fn finish_block(&mut self, place: &Place, tell: &mut dyn FnMut(Event));
@@ -135,7 +135,7 @@ impl VirtualMachine {
         Refusal { alarm }
     }
 
-    fn run(&mut self, shape: &Shape, timed: &Timed, tell: &mut dyn FnMut(Event)) {
+    fn run(&mut self, shape: &Shape, timed: &Timed<'_>, tell: &mut dyn FnMut(Event)) {
         let place = &timed.shaped.place;
         let Timed { duration, length, feed, .. } = *timed;
         let kind = match *shape {
@@ -159,7 +159,7 @@ impl VirtualMachine {
 }
 
 impl Machine for VirtualMachine {
-    fn execute(&mut self, timed: &Timed, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal> {
+    fn execute(&mut self, timed: &Timed<'_>, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal> {
         let place = &timed.shaped.place;
         match &timed.shaped.shape {
             Shape::Code(code) => self.send(*code, place, tell),

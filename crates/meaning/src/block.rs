@@ -80,7 +80,7 @@ pub(crate) struct Reading<'r> {
     /// The state before the block.
     pub before: &'r State,
     /// The state after the block, in the making.
-    pub next: State,
+    pub next: &'r mut State,
     pub command: &'r mut Command,
     /// Modal groups whose codes stand in the block, one bit each.
     pub groups_written: u32,
@@ -97,17 +97,19 @@ pub(crate) struct Reading<'r> {
     pub now_known: AxisSet,
 }
 
-/// Gives a block its meaning: fills `command` and returns where the program goes on.
+/// Gives a block its meaning: fills `command` and `next` (which holds a copy of `before`), returns where the program
+/// goes on.
 ///
 /// # Errors
-/// The control refuses the block, or a jump's target must be found first. Nothing has changed then.
+/// The control refuses the block, or a jump's target must be found first; `next` is then worth nothing.
 pub(crate) fn read_meaning(
     setting: &Setting,
     calls: &Calls,
-    state: &State,
+    before: &State,
+    next: &mut State,
     block: &Block,
     command: &mut Command,
-) -> Result<(Flow, State), Refusal> {
+) -> Result<Flow, Refusal> {
     let (word_count, cut) = cut_by_block_delete(block, setting.switches.block_delete);
     let words = Words::new(block, command.place, word_count);
     check_faults(&words, block, cut)?;
@@ -117,8 +119,8 @@ pub(crate) fn read_meaning(
         calls,
         words,
         word_count,
-        before: state,
-        next: *state,
+        before,
+        next,
         command,
         groups_written: 0,
         units: UnitSystem::Metric,
@@ -153,7 +155,7 @@ pub(crate) fn read_meaning(
     let flow = reading.take_codes()?;
     reading.act()?;
     reading.finish();
-    Ok((flow, reading.next))
+    Ok(flow)
 }
 
 /// How many words a block-delete switch leaves, and from which character on the rest is ignored.

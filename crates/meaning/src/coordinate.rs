@@ -32,7 +32,7 @@ impl Setting {
 impl Reading<'_> {
     /// Machine coordinate of program zero on an axis, offsets included.
     pub fn zero(&self, axis: usize) -> f64 {
-        self.setting.zero(&self.next, axis)
+        self.setting.zero(self.next, axis)
     }
 
     /// The length offset in force on an axis.

@@ -52,16 +52,21 @@ impl Expansion {
         }
     }
 
-    /// The next operation of the command; `None` when the block is done.
-    pub fn next(&mut self, command: &Command, around: &Surroundings) -> Option<Operation> {
-        let mut stop_point = false;
-        let act = loop {
+    /// The close of the block is handed out once more.
+    pub fn close_again(&mut self) {
+        self.part = Part::Close;
+    }
+
+    /// Writes the next operation of the command to `out`; false when the block is done.
+    pub fn next(&mut self, command: &Command, around: &Surroundings, out: &mut Operation) -> bool {
+        out.stop_point = false;
+        out.act = loop {
             match self.part {
                 Part::CodesBefore => match self.next_code(command, false, around) {
                     Some(code) => break Act::Code(code),
                     None => self.part = Part::Body,
                 },
-                Part::Body => match self.next_piece(command, around, &mut stop_point) {
+                Part::Body => match self.next_piece(command, around, &mut out.stop_point) {
                     Some(act) => break act,
                     None => {
                         self.part = Part::CodesAfter;
@@ -76,11 +81,14 @@ impl Expansion {
                     self.part = Part::Done;
                     break Act::Close(close(command.finish, around.optional_stop));
                 }
-                Part::Done => return None,
+                Part::Done => return false,
             }
         };
-        let Command { block, place, side, plane, .. } = *command;
-        Some(Operation { block, place, act, side, plane, stop_point })
+        out.block = command.block;
+        out.place = command.place;
+        out.side = command.side;
+        out.plane = command.plane;
+        true
     }
 
     fn next_code(&mut self, command: &Command, after: bool, around: &Surroundings) -> Option<CodeOut> {

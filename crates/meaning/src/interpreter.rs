@@ -25,6 +25,8 @@ pub struct Interpreter {
     reader: Reader,
     queue: Queue,
     expansion: Option<Expansion>,
+    /// The operation handed out last.
+    operation: Operation,
     barrier: Option<Barrier>,
     barriers: u64,
     started: bool,
@@ -64,8 +66,9 @@ impl Interpreter {
         };
         Interpreter {
             reader: Reader::new(setting, state),
-            queue: Queue::new(),
+            queue: Queue::new(&empty_command(&state)),
             expansion: None,
+            operation: Operation::default(),
             barrier: None,
             barriers: 0,
             started: false,
@@ -159,21 +162,24 @@ impl Interpreter {
         self.reader.forget_axes(axes);
     }
 
-    /// The next operation.
-    pub fn next(&mut self) -> Pull<Operation> {
+    /// The next operation. It stays as it is until the next call.
+    #[expect(clippy::should_implement_trait, reason = "a pull has barriers, which an iterator does not")]
+    pub fn next(&mut self) -> Pull<&Operation> {
         if let Some(barrier) = self.barrier {
             return Pull::Barrier(barrier);
         }
         loop {
             if self.waits_for_start {
                 self.waits_for_start = false;
-                return self.ask(BarrierKind::CycleStart);
+                return Pull::Barrier(self.ask(BarrierKind::CycleStart));
             }
-            if let Some(operation) = self.next_of_front() {
-                return operation;
+            match self.next_of_front() {
+                Some(Front::Operation) => return Pull::Item(&self.operation),
+                Some(Front::Question) => return Pull::Barrier(self.ask(BarrierKind::RunAgain)),
+                None => {}
             }
             if let Some(barrier) = self.read_ahead() {
-                return barrier;
+                return Pull::Barrier(barrier);
             }
             match self.queue.front() {
                 Some(command) => self.expansion = Some(Expansion::new(command)),
@@ -182,36 +188,34 @@ impl Interpreter {
         }
     }
 
-    /// The next operation of the block being executed; the block leaves the queue when it is done.
-    fn next_of_front(&mut self) -> Option<Pull<Operation>> {
-        let mut expansion = self.expansion?;
+    /// Makes the next operation of the block being executed; the block leaves the queue when it is done.
+    fn next_of_front(&mut self) -> Option<Front> {
+        let around = self.surroundings();
+        let expansion = self.expansion.as_mut()?;
         let command = self.queue.front()?;
-        let asks = command.finish == Finish::End(EndKind::M99);
-        let before = expansion;
-        let Some(mut operation) = expansion.next(command, &self.surroundings()) else {
+        if !expansion.next(command, &around, &mut self.operation) {
             self.expansion = None;
             self.queue.pop();
             return None;
-        };
-        if let Act::Close(close) = operation.act {
-            if asks {
+        }
+        if let Act::Close(close) = self.operation.act {
+            if command.finish == Finish::End(EndKind::M99) {
                 match self.runs_again.take() {
-                    // The close comes again when the question is answered.
                     None => {
-                        self.expansion = Some(before);
-                        return Some(self.ask(BarrierKind::RunAgain));
+                        // The close comes again when the question is answered.
+                        expansion.close_again();
+                        return Some(Front::Question);
                     }
-                    Some(true) => operation.act = Act::Close(Close::Next),
-                    Some(false) => self.reader.end(),
+                    Some(true) => self.operation.act = Act::Close(Close::Next),
+                    Some(false) => {}
                 }
             }
             self.waits_for_start = matches!(close, Close::Stop(_));
-            if matches!(operation.act, Act::Close(Close::End(_))) {
+            if matches!(self.operation.act, Act::Close(Close::End(_))) {
                 self.reader.end();
             }
         }
-        self.expansion = Some(expansion);
-        Some(Pull::Item(operation))
+        Some(Front::Operation)
     }
 
     fn surroundings(&self) -> Surroundings {
@@ -226,15 +230,15 @@ impl Interpreter {
     }
 
     /// Fills the queue to the control's depth: the block to execute and those read ahead of it.
-    fn read_ahead(&mut self) -> Option<Pull<Operation>> {
+    fn read_ahead(&mut self) -> Option<Barrier> {
         let depth = self.reader.setting.control.read_ahead[0] + 1;
         while self.queue.len() < depth && !self.queue.back().is_some_and(|command| command.stops_reading) {
-            match self.reader.read() {
+            match self.reader.read(self.queue.slot()) {
                 Read::Command => {
                     if !self.started {
                         self.start();
                     }
-                    self.queue.push(&self.reader.command);
+                    self.queue.take_in();
                 }
                 Read::NeedBytes { source, offset } => {
                     return Some(self.ask(BarrierKind::NeedBytes { source, offset, len: WINDOW }));
@@ -246,21 +250,23 @@ impl Interpreter {
         None
     }
 
-    /// The first block has been read, so the program's name is known: the program begins.
+    /// The first block has been read, so the program's name is known: the program begins before it.
     fn start(&mut self) {
         self.started = true;
-        let mut command = empty_command(&self.start_state);
-        command.place =
-            Place { program: self.reader.command.place.program, source: self.reader.command.place.source, ..Place::default() };
-        command.body = Body::Start(self.start_state.groups);
-        self.queue.push(&command);
+        let first = *self.queue.slot();
+        let start = self.queue.slot();
+        *start = empty_command(&self.start_state);
+        start.place = Place { program: first.place.program, source: first.place.source, ..Place::default() };
+        start.body = Body::Start(self.start_state.groups);
+        self.queue.take_in();
+        *self.queue.slot() = first;
     }
 
-    fn ask(&mut self, kind: BarrierKind) -> Pull<Operation> {
+    fn ask(&mut self, kind: BarrierKind) -> Barrier {
         self.barriers += 1;
         let barrier = Barrier { id: self.barriers, kind };
         self.barrier = Some(barrier);
-        Pull::Barrier(barrier)
+        barrier
     }
 
     /// Answers the open barrier.
@@ -356,6 +362,14 @@ impl Interpreter {
         self.reader.supply.clear();
         self.reader.calls.forget();
     }
+}
+
+/// What the block being executed has next.
+enum Front {
+    /// An operation.
+    Operation,
+    /// The question whether the main program runs again.
+    Question,
 }
 
 /// Millimetres and degrees to counts, to the nearest whole one.

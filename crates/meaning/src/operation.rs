@@ -231,3 +231,17 @@ pub struct Operation {
     /// With the single-block switch on the control stops after it, though the block goes on.
     pub stop_point: bool,
 }
+
+impl Default for Operation {
+    /// The end of no block.
+    fn default() -> Self {
+        Operation {
+            block: 0,
+            place: Place::default(),
+            act: Act::Close(Close::Next),
+            side: Side::Off,
+            plane: AxisSet::NONE,
+            stop_point: false,
+        }
+    }
+}

@@ -5,16 +5,16 @@ use crate::command::Command;
 /// Blocks that can be held, above any control's own depth (two ordinarily, up to seven in buffering mode).
 const HELD: usize = 16;
 
-/// A ring of commands. The front one is being executed.
+/// A ring of commands. The front one is being executed; a new one is written in its place and then taken in.
 pub(crate) struct Queue {
-    ring: Vec<Option<Command>>,
+    ring: Vec<Command>,
     front: usize,
     len: usize,
 }
 
 impl Queue {
-    pub fn new() -> Queue {
-        Queue { ring: vec![None; HELD], front: 0, len: 0 }
+    pub fn new(empty: &Command) -> Queue {
+        Queue { ring: vec![*empty; HELD], front: 0, len: 0 }
     }
 
     pub fn len(&self) -> usize {
@@ -23,20 +23,23 @@ impl Queue {
 
     /// The command being executed.
     pub fn front(&self) -> Option<&Command> {
-        if self.len == 0 { None } else { self.ring[self.front].as_ref() }
+        if self.len == 0 { None } else { self.ring.get(self.front) }
     }
 
     /// The command read last.
     pub fn back(&self) -> Option<&Command> {
-        if self.len == 0 { None } else { self.ring[(self.front + self.len - 1) % HELD].as_ref() }
+        if self.len == 0 { None } else { self.ring.get((self.front + self.len - 1) % HELD) }
     }
 
-    /// Adds a command; the caller keeps the control's depth, which is below the ring's size.
-    pub fn push(&mut self, command: &Command) {
-        if self.len < HELD {
-            self.ring[(self.front + self.len) % HELD] = Some(*command);
-            self.len += 1;
-        }
+    /// The place for the next command; the caller keeps the control's depth, which is below the ring's size.
+    pub fn slot(&mut self) -> &mut Command {
+        let index = (self.front + self.len.min(HELD - 1)) % HELD;
+        &mut self.ring[index]
+    }
+
+    /// Takes in the command that has been written into its place.
+    pub fn take_in(&mut self) {
+        self.len = (self.len + 1).min(HELD);
     }
 
     pub fn pop(&mut self) {

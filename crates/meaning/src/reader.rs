@@ -34,8 +34,8 @@ pub(crate) struct Reader {
     pub calls: Calls,
     /// The state after the block read last.
     pub state: State,
-    /// The command read last.
-    pub command: Command,
+    /// The state after the block being read, in the making.
+    next: State,
     /// Go on after an alarm, to find later ones.
     pub goes_on: bool,
     /// Jumps allowed without motion, dwell or stop.
@@ -60,7 +60,7 @@ impl Reader {
             names: Names::default(),
             calls: Calls::new(levels),
             state,
-            command: empty_command(&state),
+            next: state,
             goes_on: false,
             loop_limit: 1_000_000,
             block: Block::default(),
@@ -133,8 +133,8 @@ impl Reader {
         self.calls.frames.first().map(|frame| (frame.program, frame.source))
     }
 
-    /// Reads the next block that says anything into `self.command`.
-    pub fn read(&mut self) -> Read {
+    /// Reads the next block that says anything into `command`.
+    pub fn read(&mut self, command: &mut Command) -> Read {
         loop {
             if self.ended {
                 return Read::Ended;
@@ -146,11 +146,11 @@ impl Reader {
             let view = self.supply.view(frame.source, frame.cursor.offset);
             match read_block(view.characters, view.last, frame.cursor, &self.setting.control.grammar, &mut self.block) {
                 Outcome::More => return Read::NeedBytes { source: frame.source, offset: frame.cursor.offset },
-                Outcome::End => return self.end_of_text(&frame),
+                Outcome::End => return self.end_of_text(&frame, command),
                 Outcome::Block => {}
             }
             if self.block.rewind && frame.begun {
-                return self.end_of_text(&frame);
+                return self.end_of_text(&frame, command);
             }
             if self.block.rewind || self.block.is_empty() {
                 self.advance(self.block.next);
@@ -158,11 +158,11 @@ impl Reader {
             }
             if self.begins_program() {
                 if frame.begun {
-                    return self.end_of_text(&frame);
+                    return self.end_of_text(&frame, command);
                 }
                 self.name_program();
             }
-            if let Some(read) = self.take_block(&frame) {
+            if let Some(read) = self.take_block(&frame, command) {
                 return read;
             }
         }
@@ -206,14 +206,14 @@ impl Reader {
     }
 
     /// Gives the block its meaning; `None` reads on (a jump's target is looked for first, or the block is passed over).
-    fn take_block(&mut self, frame: &Frame) -> Option<Read> {
+    fn take_block(&mut self, frame: &Frame, command: &mut Command) -> Option<Read> {
         let program = self.calls.top().map_or(frame.program, |frame| frame.program);
         let sequence = match self.block.words.iter().find(|word| word.letter == b'N').map(|word| word.value) {
             Some(Value::Number(number)) => number.integer().and_then(|n| u32::try_from(n).ok()).unwrap_or(0),
             _ => 0,
         };
         let start = self.block.start;
-        self.prepare(Place {
+        self.prepare(command, Place {
             program,
             source: frame.source,
             line: start.line,
@@ -221,17 +221,18 @@ impl Reader {
             block: self.block.span(),
             sequence,
         });
-        match read_meaning(&self.setting, &self.calls, &self.state, &self.block, &mut self.command) {
-            Ok((flow, next)) => {
-                self.begin(self.block.next);
-                match self.follow(flow, &next) {
+        self.next = self.state;
+        match read_meaning(&self.setting, &self.calls, &self.state, &mut self.next, &self.block, command) {
+            Ok(flow) => {
+                self.begin(self.block.next, command);
+                match self.follow(flow, command) {
                     Ok(()) => {
-                        self.state = next;
-                        self.command.after = next;
-                        self.count();
+                        self.state = self.next;
+                        command.after = self.next;
+                        self.count(command);
                         Some(Read::Command)
                     }
-                    Err(alarm) => self.refuse(alarm),
+                    Err(alarm) => self.refuse(alarm, command),
                 }
             }
             Err(Refusal::Locate(target)) => {
@@ -242,22 +243,21 @@ impl Reader {
                 None
             }
             Err(Refusal::Alarm(alarm)) => {
-                self.begin(self.block.next);
-                self.refuse(alarm)
+                self.begin(self.block.next, command);
+                self.refuse(alarm, command)
             }
         }
     }
 
-    fn begin(&mut self, next: Cursor) {
+    fn begin(&mut self, next: Cursor, command: &mut Command) {
         if let Some(frame) = self.calls.frames.last_mut() {
             frame.cursor = next;
             frame.begun = true;
-            self.command.frame = *frame;
+            command.frame = *frame;
         }
     }
 
-    fn prepare(&mut self, place: Place) {
-        let command = &mut self.command;
+    fn prepare(&self, command: &mut Command, place: Place) {
         command.block = self.blocks;
         command.place = place;
         command.from = self.state.machine;
@@ -269,21 +269,21 @@ impl Reader {
         command.absolute = AxisSet::NONE;
     }
 
-    fn count(&mut self) {
+    fn count(&mut self, command: &Command) {
         self.blocks += 1;
-        if !matches!(self.command.body, Body::Nothing | Body::Set(..)) || self.command.finish != Finish::Next {
+        if !matches!(command.body, Body::Nothing | Body::Set(..)) || command.finish != Finish::Next {
             self.jumps = 0;
         }
     }
 
     /// Carries the program to where the block sends it.
-    fn follow(&mut self, flow: Flow, next: &State) -> Result<(), Alarm> {
+    fn follow(&mut self, flow: Flow, command: &mut Command) -> Result<(), Alarm> {
         if flow == Flow::Next {
             return Ok(());
         }
         self.jumps += 1;
         if self.jumps > self.loop_limit {
-            let place = self.command.place;
+            let place = command.place;
             let alarm = Alarm::new(Condition::EndlessLoop, place, place.block);
             return Err(alarm.with([self.loop_limit as f64, 0.0, 0.0]));
         }
@@ -291,8 +291,8 @@ impl Reader {
             Flow::Next => {}
             Flow::Call(found, repeats) => self.enter(found, repeats),
             Flow::Return(found) => self.leave(found),
-            Flow::Again => self.run_again(),
-            Flow::Jump(found) if self.comes_again(found.cursor, next) => self.run_again(),
+            Flow::Again => self.run_again(command),
+            Flow::Jump(found) if self.comes_again(found.cursor) => self.run_again(command),
             Flow::Jump(found) => self.advance(found.cursor),
         }
         Ok(())
@@ -318,9 +318,9 @@ impl Reader {
     }
 
     /// M99 in the main program: it asks to be run again.
-    fn run_again(&mut self) {
-        self.command.finish = Finish::End(EndKind::M99);
-        self.command.stops_reading = true;
+    fn run_again(&mut self, command: &mut Command) {
+        command.finish = Finish::End(EndKind::M99);
+        command.stops_reading = true;
         if let Some(main) = self.calls.frames.first_mut() {
             main.cursor = main.head;
             main.begun = false;
@@ -330,13 +330,13 @@ impl Reader {
     /// True if the main program jumps to the same block in the same state as once before: it would go on for ever.
     ///
     /// The earlier state is kept for 1, 2, 4, 8 … jumps (Brent's cycle search), so one state is enough.
-    fn comes_again(&mut self, cursor: Cursor, next: &State) -> bool {
-        if self.seen.as_ref().is_some_and(|(place, state)| *place == cursor && state == next) {
+    fn comes_again(&mut self, cursor: Cursor) -> bool {
+        if self.seen.as_ref().is_some_and(|(place, state)| *place == cursor && *state == self.next) {
             return true;
         }
         self.seen_for += 1;
         if self.seen_for >= self.seen_until {
-            self.seen = Some((cursor, *next));
+            self.seen = Some((cursor, self.next));
             self.seen_for = 0;
             self.seen_until *= 2;
         }
@@ -344,7 +344,7 @@ impl Reader {
     }
 
     /// The block is refused: it has no effect. Checking on, what it names becomes unknown.
-    fn refuse(&mut self, alarm: Alarm) -> Option<Read> {
+    fn refuse(&mut self, alarm: Alarm, command: &mut Command) -> Option<Read> {
         let clouded = self.state.unknown.clouds(alarm.condition, &self.setting.control.roles, alarm.axis);
         if !self.goes_on {
             self.ended = true;
@@ -354,9 +354,9 @@ impl Reader {
         if clouded {
             return None;
         }
-        self.prepare(alarm.place);
-        self.command.body = Body::Alarm(alarm);
-        self.command.after = self.state;
+        self.prepare(command, alarm.place);
+        command.body = Body::Alarm(alarm);
+        command.after = self.state;
         self.blocks += 1;
         Some(Read::Command)
     }
@@ -385,9 +385,9 @@ impl Reader {
         self.state.unknown.axes = self.state.unknown.axes.or(axes);
     }
 
-    fn end_of_text(&mut self, frame: &Frame) -> Read {
+    fn end_of_text(&mut self, frame: &Frame, command: &mut Command) -> Read {
         let Cursor { offset, line, line_start, .. } = frame.cursor;
-        self.prepare(Place {
+        self.prepare(command, Place {
             program: frame.program,
             source: frame.source,
             line,
@@ -395,10 +395,10 @@ impl Reader {
             block: Span { start: offset, len: 0 },
             sequence: 0,
         });
-        self.command.finish = Finish::End(EndKind::Text);
-        self.command.after = self.state;
-        self.command.side = Side::Off;
-        self.command.frame = *frame;
+        command.finish = Finish::End(EndKind::Text);
+        command.after = self.state;
+        command.side = Side::Off;
+        command.frame = *frame;
         self.ended = true;
         Read::Command
     }

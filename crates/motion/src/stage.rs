@@ -9,9 +9,9 @@ use crate::profile::Trapezoid;
 
 /// A shape with its time.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Timed {
+pub struct Timed<'s> {
     /// What happens and where it comes from.
-    pub shaped: Shaped,
+    pub shaped: &'s Shaped,
     /// How long it takes; zero for what takes no time.
     pub duration: Seconds,
     /// Length of its path, mm (degrees count as mm); zero for what is no move.
@@ -41,17 +41,19 @@ impl Motion {
         self.upstream.resume(id, answer)
     }
 
-    /// The next shape with its time.
+    /// Advances to the next shape; [`Motion::current`] gives it.
     #[expect(clippy::should_implement_trait, reason = "a pull has barriers, which an iterator does not")]
-    pub fn next(&mut self) -> Pull<Timed> {
+    pub fn next(&mut self) -> Pull<()> {
         match self.upstream.next() {
-            Pull::Item(shaped) => Pull::Item(self.time(shaped)),
+            Pull::Item(_) => Pull::Item(()),
             Pull::Barrier(barrier) => Pull::Barrier(barrier),
             Pull::End => Pull::End,
         }
     }
 
-    fn time(&self, shaped: Shaped) -> Timed {
+    /// The shape that [`Motion::next`] has come to, with its time.
+    pub fn current(&self) -> Timed<'_> {
+        let shaped = self.upstream.current();
         let (seconds, length, feed) = match &shaped.shape {
             Shape::Rapid { from, to, .. } => self.rapid(from, to),
             Shape::Line { from, to, feed } => self.line(from, to, feed),

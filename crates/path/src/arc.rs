@@ -97,7 +97,7 @@ impl Arc {
     pub fn length(&self) -> f64 {
         let others: f64 = (0..AXES)
             .filter(|&axis| !self.axes.contains(&(axis as u8)))
-            .map(|axis| (self.to[axis] - self.from[axis]).powi(2))
+            .map(|axis| (self.to[axis] - self.from[axis]) * (self.to[axis] - self.from[axis]))
             .sum();
         let plane = self.plane_length();
         (plane * plane + others).sqrt()

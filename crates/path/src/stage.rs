@@ -65,18 +65,28 @@ pub struct Shaped {
     pub certain: bool,
 }
 
+impl Default for Shaped {
+    /// The end of no block.
+    fn default() -> Self {
+        let shape = Shape::Close(Close::Next);
+        Shaped { block: 0, place: Place::default(), shape, stop_point: false, certain: true }
+    }
+}
+
 /// The stage that makes paths of operations.
 pub struct Path {
     /// The stage before.
     pub upstream: Interpreter,
     position: Point,
     compensation: Compensation,
+    /// The shape handed out last.
+    shaped: Shaped,
 }
 
 impl Path {
     /// The stage behind an interpreter, its axes standing at `position` (mm, degrees).
     pub fn new(upstream: Interpreter, position: Point) -> Path {
-        Path { upstream, position, compensation: Compensation::default() }
+        Path { upstream, position, compensation: Compensation::default(), shaped: Shaped::default() }
     }
 
     /// The axes stand here, whatever was under way (mm, degrees).
@@ -93,56 +103,91 @@ impl Path {
         self.upstream.resume(id, answer)
     }
 
-    /// The next shape.
+    /// The next shape. It stays as it is until the next call.
     #[expect(clippy::should_implement_trait, reason = "a pull has barriers, which an iterator does not")]
-    pub fn next(&mut self) -> Pull<Shaped> {
+    pub fn next(&mut self) -> Pull<&Shaped> {
+        let Path { upstream, position, compensation, shaped } = self;
         loop {
-            let operation = match self.upstream.next() {
+            let operation = match upstream.next() {
                 Pull::Item(operation) => operation,
                 Pull::Barrier(barrier) => return Pull::Barrier(barrier),
                 Pull::End => return Pull::End,
             };
-            if let Some(shaped) = self.shape(&operation) {
+            if shape(operation, position, compensation, shaped) {
                 return Pull::Item(shaped);
             }
         }
     }
 
-    /// The operation's shape; `None` for a move of no length.
-    fn shape(&mut self, operation: &Operation) -> Option<Shaped> {
-        let from = self.position;
-        let (shape, to) = match operation.act {
-            Act::Start(groups) => (Shape::Start(groups), None),
-            Act::Code(code) => (Shape::Code(code), None),
-            Act::Dwell(dwell) => (Shape::Dwell(dwell), None),
-            Act::Set(value) => (Shape::Set(value), None),
-            Act::Close(close) => (Shape::Close(close), None),
-            Act::Alarm(alarm) => (Shape::Alarm(alarm), None),
-            Act::Rapid { to, kind } => (Shape::Rapid { from, to, kind }, Some(to)),
-            Act::Line { to, feed } => (Shape::Line { from, to, feed }, Some(to)),
-            Act::Arc { arc, feed } => (Shape::Arc { arc: Arc::new(&from, &arc), feed }, Some(arc.to)),
-        };
-        let Operation { block, place, stop_point, .. } = *operation;
-        let mut shaped = Shaped { block, place, shape, stop_point, certain: true };
-        let Some(to) = to else { return Some(shaped) };
-        let moving = match &shaped.shape {
-            Shape::Arc { arc, .. } => AxisSet::only(usize::from(arc.axes[0])).or(AxisSet::only(usize::from(arc.axes[1]))),
-            _ => differing(&from, &to),
-        };
-        if moving.is_empty() {
-            return None;
-        }
-        match self.compensation.judge(operation.side, moving, operation.plane, &place) {
-            Verdict::Pass => {}
-            Verdict::Uncertain => shaped.certain = false,
-            Verdict::Refuse(alarm) => {
-                shaped.shape = Shape::Alarm(alarm);
-                return Some(shaped);
-            }
-        }
-        self.position = to;
-        Some(shaped)
+    /// The shape handed out last.
+    pub fn current(&self) -> &Shaped {
+        &self.shaped
     }
+}
+
+/// Writes the operation's shape; false for a move of no length.
+fn shape(operation: &Operation, position: &mut Point, compensation: &mut Compensation, shaped: &mut Shaped) -> bool {
+    let from = *position;
+    let to = match operation.act {
+        Act::Rapid { to, kind } => {
+            shaped.shape = Shape::Rapid { from, to, kind };
+            to
+        }
+        Act::Line { to, feed } => {
+            shaped.shape = Shape::Line { from, to, feed };
+            to
+        }
+        Act::Arc { arc, feed } => {
+            shaped.shape = Shape::Arc { arc: Arc::new(&from, &arc), feed };
+            arc.to
+        }
+        Act::Start(groups) => {
+            shaped.shape = Shape::Start(groups);
+            from
+        }
+        Act::Code(code) => {
+            shaped.shape = Shape::Code(code);
+            from
+        }
+        Act::Dwell(dwell) => {
+            shaped.shape = Shape::Dwell(dwell);
+            from
+        }
+        Act::Set(value) => {
+            shaped.shape = Shape::Set(value);
+            from
+        }
+        Act::Close(close) => {
+            shaped.shape = Shape::Close(close);
+            from
+        }
+        Act::Alarm(alarm) => {
+            shaped.shape = Shape::Alarm(alarm);
+            from
+        }
+    };
+    shaped.block = operation.block;
+    shaped.place = operation.place;
+    shaped.stop_point = operation.stop_point;
+    shaped.certain = true;
+    let moving = match &shaped.shape {
+        Shape::Arc { arc, .. } => AxisSet::only(usize::from(arc.axes[0])).or(AxisSet::only(usize::from(arc.axes[1]))),
+        Shape::Rapid { .. } | Shape::Line { .. } => differing(&from, &to),
+        _ => return true,
+    };
+    if moving.is_empty() {
+        return false;
+    }
+    match compensation.judge(operation.side, moving, operation.plane, &operation.place) {
+        Verdict::Pass => {}
+        Verdict::Uncertain => shaped.certain = false,
+        Verdict::Refuse(alarm) => {
+            shaped.shape = Shape::Alarm(alarm);
+            return true;
+        }
+    }
+    *position = to;
+    true
 }
 
 /// The axes on which two points differ.

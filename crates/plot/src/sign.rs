@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::canvas::{Canvas, short};
-use crate::colour::{ALARM, INK, PAPER};
+use crate::colour::{ALARM, INK, PAPER, SOFT_INK};
 use crate::ink::Ink;
 use crate::label::{Anchor, Label, Places};
 use crate::mark::{Mark, MarkKind};
@@ -92,12 +92,27 @@ pub(crate) fn draw_marks(canvas: &mut Canvas, view: &View, marks: &[Mark], ink: 
     }
     for group in groups.iter().rev() {
         if let (Some(kind), Some(first)) = (importance(group), group.first()) {
-            let around = labels_around(view.place(first.at), &names(group));
+            let sign = view.place(first.at);
+            let around = labels_around(sign, &names(group));
             if let Some(label) = best_place(around, view, ink, places, kind == MarkKind::Alarm) {
                 places.take(label.room());
+                draw_leader(canvas, sign, &label.room());
                 canvas.text_over_lines(&label, if kind == MarkKind::Alarm { ALARM } else { INK });
             }
         }
+    }
+}
+
+/// Draws a thin line from a sign to its label, if that stands away from it.
+fn draw_leader(canvas: &mut Canvas, sign: [f64; 2], label: &Rect) {
+    let end = [sign[0].clamp(label.x, label.right()), sign[1].clamp(label.y, label.bottom())];
+    let [dx, dy] = [end[0] - sign[0], end[1] - sign[1]];
+    let length = libm::hypot(dx, dy);
+    if length > SIGN + 10.0 {
+        let start = [sign[0] + dx * SIGN / length, sign[1] + dy * SIGN / length];
+        canvas.open(&format!("stroke=\"{SOFT_INK}\" stroke-width=\"0.7\""));
+        canvas.line(start, end);
+        canvas.close();
     }
 }
 

@@ -6,7 +6,7 @@ use base::{Alarm, AxisSet, Place, Point, Seconds};
 use dialect::MMeaning;
 use machine::{Event, EventKind, Machine, ResetCause, StopCause, VirtualMachine};
 use meaning::{Answer, BarrierKind, Close, EndKind, Interpreter, Pull, StopKind};
-use motion::{Motion, Timed};
+use motion::Motion;
 use path::{Path, Shape};
 
 use crate::configuration::{Configuration, Inputs};
@@ -83,7 +83,10 @@ pub struct Session<L> {
     repeats_main: bool,
     events: VecDeque<Event>,
     bytes: Vec<u8>,
-    held: Option<Timed>,
+    /// The next shape has been pulled and not yet executed.
+    held: bool,
+    /// The block at whose beginning the operator asked to be told.
+    told: Option<u64>,
     stopped: bool,
     alarm: Option<Alarm>,
     ended: bool,
@@ -111,7 +114,8 @@ impl<L: Library> Session<L> {
             repeats_main: false,
             events: VecDeque::with_capacity(32),
             bytes: Vec::new(),
-            held: None,
+            held: false,
+            told: None,
             stopped: false,
             alarm: None,
             ended: true,
@@ -189,7 +193,8 @@ impl<L: Library> Session<L> {
     /// Chooses the program to run.
     pub fn select(&mut self, source: base::SourceId, name: &str) {
         self.interpreter_mut().select(source, name);
-        self.held = None;
+        self.held = false;
+        self.told = None;
         self.rewound = true;
         self.ended = true;
     }
@@ -249,7 +254,8 @@ impl<L: Library> Session<L> {
         self.machine.drop_codes();
         self.motion.upstream.stand_at(&position);
         self.interpreter_mut().reset(&position);
-        self.held = None;
+        self.held = false;
+        self.told = None;
         self.alarm = None;
         self.stopped = false;
         self.ended = true;
@@ -283,33 +289,39 @@ impl<L: Library> Session<L> {
             if self.ended || self.alarm.is_some() {
                 return Step::Idle;
             }
-            if let Some(timed) = self.pull() {
-                self.execute(&timed);
+            if self.pull() {
+                self.held = false;
+                self.execute();
             }
         }
     }
 
-    /// The place of the block that comes next, without executing any of it; `None` if something else comes first.
-    pub fn peek(&mut self) -> Option<Place> {
-        if !self.events.is_empty() || self.stopped || self.ended || self.alarm.is_some() {
+    /// The place of a block of which nothing has been executed yet, told once for each; `None` if something else
+    /// comes first.
+    pub fn block_begins(&mut self) -> Option<Place> {
+        if !self.events.is_empty() || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
             return None;
         }
-        let timed = self.pull()?;
-        self.held = Some(timed);
-        Some(timed.shaped.place)
+        self.held = true;
+        let shaped = self.motion.upstream.current();
+        if self.told == Some(shaped.block) {
+            return None;
+        }
+        self.told = Some(shaped.block);
+        Some(shaped.place)
     }
 
-    /// The next shape; `None` if a question had to be answered, a stop was met or there is no more.
-    fn pull(&mut self) -> Option<Timed> {
-        if let Some(timed) = self.held.take() {
-            return Some(timed);
+    /// Pulls the next shape; false if a question had to be answered, a stop was met or there is no more.
+    fn pull(&mut self) -> bool {
+        if self.held {
+            return true;
         }
         loop {
             let barrier = match self.motion.next() {
-                Pull::Item(timed) => return Some(timed),
+                Pull::Item(()) => return true,
                 Pull::End => {
                     self.ended = true;
-                    return None;
+                    return false;
                 }
                 Pull::Barrier(barrier) => barrier,
             };
@@ -319,7 +331,7 @@ impl<L: Library> Session<L> {
                         Ok(last) => self.motion.resume(barrier.id, Answer::Bytes(&self.bytes, last)),
                         Err(error) => {
                             self.failed = Some(error);
-                            return None;
+                            return false;
                         }
                     }
                 }
@@ -328,7 +340,7 @@ impl<L: Library> Session<L> {
                     Ok(None) => self.motion.resume(barrier.id, Answer::NotFound),
                     Err(error) => {
                         self.failed = Some(error);
-                        return None;
+                        return false;
                     }
                 },
                 // The stop was told when its block closed; here CYCLE START has been pressed.
@@ -342,25 +354,22 @@ impl<L: Library> Session<L> {
         }
     }
 
-    fn execute(&mut self, timed: &Timed) {
-        let place = timed.shaped.place;
-        match timed.shaped.shape {
-            Shape::Alarm(alarm) => self.raise(alarm),
-            Shape::Close(close) => self.close(close, place),
-            _ => {
-                if self.after_alarm == AfterAlarm::GoOn {
-                    self.pass_unknown();
-                }
-                let events = &mut self.events;
-                match self.machine.execute(timed, &mut |event| events.push_back(event)) {
-                    Ok(()) => {
-                        if timed.shaped.stop_point && self.switches.single_block {
-                            self.stop(place, StopKind::SingleBlock);
-                        }
-                    }
-                    Err(refusal) => self.raise(self.at_the_word(refusal.alarm)),
-                }
-            }
+    fn execute(&mut self) {
+        let shaped = self.motion.upstream.current();
+        let (place, stop_point) = (shaped.place, shaped.stop_point);
+        match shaped.shape {
+            Shape::Alarm(alarm) => return self.raise(alarm),
+            Shape::Close(close) => return self.close(close, place),
+            _ => {}
+        }
+        if self.after_alarm == AfterAlarm::GoOn {
+            self.pass_unknown();
+        }
+        let events = &mut self.events;
+        match self.machine.execute(&self.motion.current(), &mut |event| events.push_back(event)) {
+            Ok(()) if stop_point && self.switches.single_block => self.stop(place, StopKind::SingleBlock),
+            Ok(()) => {}
+            Err(refusal) => self.raise(self.at_the_word(refusal.alarm)),
         }
     }
 
