@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::control::{Control, GroupCodes, GroupRule, MOST_GROUPS, NO_CODE};
-use crate::policy::{Options, Policies};
+use crate::policy::{ASKED, KNOWN, Options, Policies};
 use crate::row::{Division, ParameterKind};
 
 /// A parameter as a user sets it.
@@ -40,6 +40,9 @@ pub struct Fitting {
     parameters: Vec<f64>,
 }
 
+/// Options that the machine's axes decide.
+const FROM_AXES: &[&str] = &["fourth-axis"];
+
 fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> FittingError {
     let known: Vec<_> = known.collect();
     FittingError(format!("there is no {what} `{name}` on this control; it has: {}", known.join(", ")))
@@ -71,6 +74,12 @@ impl Fitting {
         let Some(index) = control.options.iter().position(|row| row.name == name) else {
             return Err(unknown("option", name, control.options.iter().map(|row| row.name.as_str())));
         };
+        let gives_codes = control.g_codes.iter().any(|code| code.division == Division::Option(index as u8));
+        let acts = gives_codes || ASKED.contains(&name) || FROM_AXES.contains(&name);
+        if !acts && fitted != control.options[index].default {
+            let state = if fitted { "on" } else { "off" };
+            return Err(FittingError(format!("option `{name}` = {state} is not built yet: it would have no effect")));
+        }
         self.fitted[index] = fitted;
         self.options.set(name, fitted);
         Ok(())
@@ -122,6 +131,9 @@ impl Fitting {
         };
         if !row.values.iter().any(|known| known == value) {
             return Err(FittingError(format!("policy `{name}` is one of {}, not `{value}`", row.values.join(", "))));
+        }
+        if !KNOWN.iter().any(|(known, _)| *known == name) && row.values.get(row.default).is_none_or(|d| d != value) {
+            return Err(FittingError(format!("policy `{name}` = {value} is not built yet: it would have no effect")));
         }
         self.policies.set(name, value);
         Ok(())

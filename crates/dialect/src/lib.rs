@@ -26,7 +26,7 @@ pub use load::{ControlFiles, load_control};
 pub use meaning::{MMeaning, Meaning};
 pub use policy::{
     ArcWithoutCentre, CycleL0Moves, CycleWithMotion, FeedModeChange, G92System, InchFeedInteger, M01OffOutput, MOver99,
-    OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, StrokeCheck,
+    OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ResetPointer, StrokeCheck,
 };
 pub use row::{Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow};
 

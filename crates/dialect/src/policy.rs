@@ -26,7 +26,7 @@ macro_rules! policies {
             }
         }
 
-        #[cfg(test)]
+        /// Every policy that code reads, with its values.
         pub(crate) const KNOWN: &[(&str, &[&str])] = &[$(($name, &[$fword, $($word,)*]),)*];
     };
 }
@@ -118,6 +118,13 @@ policies! {
         /// At the border.
         AtBorder = "at-border",
     }
+    /// Where RESET leaves the program.
+    reset_pointer: ResetPointer = "reset-pointer" {
+        /// At the block after the one being executed.
+        Stays = "stays",
+        /// At the head of the main program.
+        Head = "head",
+    }
     /// Whether F survives a change between feed per minute and per revolution.
     feed_mode_change: FeedModeChange = "feed-mode-change" {
         /// A new F must be programmed.
@@ -143,7 +150,7 @@ macro_rules! options {
             }
         }
 
-        #[cfg(test)]
+        /// Every option that code asks for by its name.
         pub(crate) const ASKED: &[&str] = &[$($name,)*];
     };
 }

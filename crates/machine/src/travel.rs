@@ -51,28 +51,33 @@ impl Travel {
         None
     }
 
-    /// The part of a move that stays inside: the shape up to the border. `rates` are the axes' own rapid rates where
+    /// The part of a move that stays inside: the shape up to the border, and which part of the whole it is. `rates` are the axes' own rapid rates where
     /// every axis runs at its own; `None` for a straight way.
-    pub fn until_border(&self, shape: &Shape, rates: Option<&Point>) -> Shape {
+    pub fn until_border(&self, shape: &Shape, rates: Option<&Point>) -> (Shape, f64) {
         match *shape {
             Shape::Rapid { from, to, kind } => {
-                let to = match rates {
+                let end = match rates {
                     Some(rates) => self.clip_by_rates(&from, &to, rates),
                     None => self.clip(&from, &to),
                 };
-                Shape::Rapid { from, to, kind }
+                (Shape::Rapid { from, to: end, kind }, part(&from, &end, &to))
             }
-            Shape::Line { from, to, feed } => Shape::Line { from, to: self.clip(&from, &to), feed },
+            Shape::Line { from, to, feed } => {
+                let end = self.clip(&from, &to);
+                (Shape::Line { from, to: end, feed }, part(&from, &end, &to))
+            }
             Shape::Arc { mut arc, feed } => {
+                let mut part = 1.0;
                 if let Some((s, _)) = arc.first_exit(self.axes, &self.low, &self.high) {
                     let (to, radius) = (arc.at(s), arc.radius[0] + (arc.radius[1] - arc.radius[0]) * s);
                     arc.to = to;
                     arc.radius[1] = radius;
                     arc.sweep *= s;
+                    part = s;
                 }
-                Shape::Arc { arc, feed }
+                (Shape::Arc { arc, feed }, part)
             }
-            other => other,
+            other => (other, 1.0),
         }
     }
 
@@ -128,4 +133,16 @@ impl Travel {
         }
         end
     }
+}
+
+/// Which part of the way from `from` to `to` leads to `end`, along the axis that goes furthest.
+fn part(from: &Point, end: &Point, to: &Point) -> f64 {
+    let mut furthest = 0;
+    for axis in 1..AXES {
+        if (to[axis] - from[axis]).abs() > (to[furthest] - from[furthest]).abs() {
+            furthest = axis;
+        }
+    }
+    let whole = to[furthest] - from[furthest];
+    if whole == 0.0 { 1.0 } else { (end[furthest] - from[furthest]) / whole }
 }

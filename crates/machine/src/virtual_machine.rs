@@ -135,9 +135,11 @@ impl VirtualMachine {
         Refusal { alarm }
     }
 
-    fn run(&mut self, shape: &Shape, timed: &Timed<'_>, tell: &mut dyn FnMut(Event)) {
+    /// Runs a shape that is this part of the timed one.
+    fn run(&mut self, shape: &Shape, timed: &Timed<'_>, part: f64, tell: &mut dyn FnMut(Event)) {
         let place = &timed.shaped.place;
         let Timed { duration, length, feed, .. } = *timed;
+        let (duration, length) = (Seconds(duration.0 * part), length * part);
         let kind = match *shape {
             Shape::Rapid { from, to, .. } => {
                 self.position = to;
@@ -176,11 +178,14 @@ impl Machine for VirtualMachine {
                 match exit {
                     Some(exit) if !self.unknown.has(exit.axis) => {
                         if self.stroke_check == StrokeCheck::AtBorder {
-                            self.run(&self.travel.until_border(shape, self.rates.as_ref()), timed, tell);
+                            let (inside, part) = self.travel.until_border(shape, self.rates.as_ref());
+                            if part > 0.0 {
+                                self.run(&inside, timed, part, tell);
+                            }
                         }
                         return Err(self.refuse(exit, place));
                     }
-                    _ => self.run(shape, timed, tell),
+                    _ => self.run(shape, timed, 1.0, tell),
                 }
             }
             Shape::Close(_) | Shape::Alarm(_) => {}

@@ -113,6 +113,7 @@ pub(crate) fn read_meaning(
     let (word_count, cut) = cut_by_block_delete(block, setting.switches.block_delete);
     let words = Words::new(block, command.place, word_count);
     check_faults(&words, block, cut)?;
+    check_skips(setting, &words, block)?;
     let control = setting.control.as_ref();
     let mut reading = Reading {
         setting,
@@ -178,6 +179,16 @@ fn check_faults(words: &Words, block: &Block, cut: u16) -> Result<(), Alarm> {
     match block.statement {
         Some(statement) if statement.extent.at < cut => {
             Err(Alarm::new(Condition::NotYetBuilt, words.place, statement.extent.span(start)))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses block-delete switches that are not fitted.
+fn check_skips(setting: &Setting, words: &Words, block: &Block) -> Result<(), Alarm> {
+    match block.skips.iter().find(|skip| skip.switch > 1) {
+        Some(skip) if !setting.fitting.options.block_delete_2_9 => {
+            Err(Alarm::new(Condition::AddressUnavailable, words.place, skip.extent.span(block.start.offset)))
         }
         _ => Ok(()),
     }
@@ -284,8 +295,11 @@ impl Reading<'_> {
         Ok(row)
     }
 
-    /// F, H, D, and N as a check of its range.
+    /// F, H, D; of O and N only the range matters here.
     fn take_values(&mut self) -> Result<(), Alarm> {
+        for letter in [b'O', b'N'] {
+            self.words.integer(&self.setting.control, letter)?;
+        }
         if !self.words.has_any(letter_bit(b'F') | letter_bit(b'H') | letter_bit(b'D')) {
             return Ok(());
         }

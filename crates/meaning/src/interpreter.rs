@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use base::{AXES, AxisSet, Place, Point, ProgramId, SourceId};
-use dialect::{Control, Fitting, M01OffOutput};
+use dialect::{Control, Fitting, M01OffOutput, ResetPointer};
 
 use crate::block::Setting;
 use crate::command::{Body, Command, Finish};
@@ -29,6 +29,8 @@ pub struct Interpreter {
     operation: Operation,
     barrier: Option<Barrier>,
     barriers: u64,
+    /// Bytes of an answer that came in parts.
+    gathered: Vec<u8>,
     started: bool,
     /// The close that waits for the answer whether the main program runs again.
     runs_again: Option<bool>,
@@ -71,6 +73,7 @@ impl Interpreter {
             operation: Operation::default(),
             barrier: None,
             barriers: 0,
+            gathered: Vec::new(),
             started: false,
             runs_again: None,
             waits_for_start: false,
@@ -277,11 +280,10 @@ impl Interpreter {
         let barrier = self.barrier.filter(|barrier| barrier.id == id).ok_or(StaleBarrier)?;
         self.barrier = None;
         match (barrier.kind, answer) {
-            (BarrierKind::NeedBytes { source, offset, .. }, Answer::Bytes(bytes, last)) => {
-                // Nothing and not the end would be asked for again for ever.
-                self.reader.supply.fill(source, offset, bytes, last || bytes.is_empty());
+            (BarrierKind::NeedBytes { source, offset, len }, Answer::Bytes(bytes, last)) => {
+                self.take_bytes(source, offset, len, bytes, last);
             }
-            (BarrierKind::NeedBytes { source, offset, .. }, _) => self.reader.supply.fill(source, offset, &[], true),
+            (BarrierKind::NeedBytes { source, offset, len }, _) => self.take_bytes(source, offset, len, &[], true),
             (BarrierKind::NeedProgram { .. }, Answer::Program(source)) => self.reader.brought(Some(source)),
             (BarrierKind::NeedProgram { .. }, _) => self.reader.brought(None),
             (BarrierKind::RunAgain, answer) => self.runs_again = Some(answer == Answer::Continue),
@@ -291,9 +293,29 @@ impl Interpreter {
         Ok(())
     }
 
+    /// Takes bytes in. Fewer than asked for are gathered and the rest asked for, so that any answer leads on; nothing
+    /// at all and not the end would be asked for again for ever, and is taken for the end.
+    fn take_bytes(&mut self, source: SourceId, offset: u64, len: usize, bytes: &[u8], last: bool) {
+        let last = last || bytes.is_empty();
+        if self.gathered.is_empty() && (last || bytes.len() >= len) {
+            self.reader.supply.fill(source, offset, bytes, last);
+            return;
+        }
+        self.gathered.extend_from_slice(bytes);
+        if !last && bytes.len() < len {
+            let (offset, len) = (offset + bytes.len() as u64, len - bytes.len());
+            self.ask(BarrierKind::NeedBytes { source, offset, len });
+            return;
+        }
+        let start = offset + bytes.len() as u64 - self.gathered.len() as u64;
+        self.reader.supply.fill(source, start, &self.gathered, last);
+        self.gathered.clear();
+    }
+
     /// RESET: the queue is dropped, the executing block's state restored, the reset table applied.
     ///
-    /// `machine` is where the axes really stand (mm, degrees). The program goes on with the block after the executing one.
+    /// `machine` is where the axes really stand (mm, degrees). The program goes on with the block after the executing
+    /// one, or from its head (policy `reset-pointer`).
     pub fn reset(&mut self, machine: &Point) {
         self.restore(machine);
         let setting = &self.reader.setting;
@@ -314,8 +336,10 @@ impl Interpreter {
         self.drop_queue();
         self.reader.state = state;
         self.reader.stand_at(to_counts(machine));
-        if let Some(frame) = frame {
-            self.reader.go_to(&frame);
+        let stays = self.reader.setting.fitting.policies.reset_pointer == ResetPointer::Stays;
+        match frame {
+            Some(frame) if stays => self.reader.go_to(&frame),
+            _ => self.reader.rewind(),
         }
         self.started = false;
         self.start_state = self.reader.state;
@@ -352,6 +376,7 @@ impl Interpreter {
         self.queue.clear();
         self.expansion = None;
         self.barrier = None;
+        self.gathered.clear();
         self.runs_again = None;
         self.waits_for_start = false;
         self.start_state = self.reader.state;

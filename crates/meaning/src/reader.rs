@@ -11,7 +11,7 @@ use crate::operation::{CodeLine, CodeOut, EndKind, Side};
 use crate::program::{Frame, Names};
 use crate::state::State;
 use crate::supply::Supply;
-use crate::unknown::letter_bit;
+use crate::unknown::{Unknown, letter_bit};
 use crate::word::Refusal;
 
 /// What came of reading.
@@ -345,7 +345,7 @@ impl Reader {
 
     /// The block is refused: it has no effect. Checking on, what it names becomes unknown.
     fn refuse(&mut self, alarm: Alarm, command: &mut Command) -> Option<Read> {
-        let clouded = self.state.unknown.clouds(alarm.condition, &self.setting.control.roles, alarm.axis);
+        let clouded = self.unknown_in_block().clouds(alarm.condition, &self.setting.control.roles, alarm.axis);
         if !self.goes_on {
             self.ended = true;
         } else {
@@ -361,23 +361,39 @@ impl Reader {
         Some(Read::Command)
     }
 
-    fn forget_what_it_names(&mut self) {
-        let setting = &self.setting;
-        for word in &self.block.words {
-            if let Some(axis) = setting.facts.axis(word.letter) {
-                self.state.unknown.axes.add(axis);
-            }
-            match (word.letter, word.value) {
-                (b'G', Value::Number(number)) => {
-                    let row = number.integer().and_then(|code| setting.control.g_row(code));
-                    let code = row.and_then(|row| setting.control.g_codes.get(usize::from(row)));
-                    if let Some(group) = code.and_then(|code| code.group) {
-                        self.state.unknown.groups |= 1 << group;
-                    }
+    /// The group of a G word, if it is a modal code of this control.
+    fn group_of(&self, word: &syntax::Word) -> Option<u8> {
+        let Value::Number(number) = word.value else { return None };
+        let row = self.setting.control.g_row(number.integer()?).filter(|_| word.letter == b'G')?;
+        self.setting.control.g_codes.get(usize::from(row))?.group
+    }
+
+    /// What is unknown in the block at hand: what it writes itself is not.
+    fn unknown_in_block(&self) -> Unknown {
+        let mut unknown = self.state.unknown;
+        if !unknown.is_nothing() {
+            for word in &self.block.words {
+                unknown.words &= !letter_bit(word.letter);
+                if let Some(group) = self.group_of(word) {
+                    unknown.groups &= !(1 << group);
                 }
-                (letter, _) => self.state.unknown.words |= letter_bit(letter),
             }
         }
+        unknown
+    }
+
+    fn forget_what_it_names(&mut self) {
+        let mut unknown = self.state.unknown;
+        for word in &self.block.words {
+            if let Some(axis) = self.setting.facts.axis(word.letter) {
+                unknown.axes.add(axis);
+            }
+            match self.group_of(word) {
+                Some(group) => unknown.groups |= 1 << group,
+                None => unknown.words |= letter_bit(word.letter),
+            }
+        }
+        self.state.unknown = unknown;
     }
 
     /// A later stage refused a block: these axes are unknown.

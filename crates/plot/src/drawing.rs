@@ -40,7 +40,7 @@ impl Drawing {
     /// Draws one move. A stroke with a coordinate that is not a number, or is beyond 1000 km, is ignored.
     /// A move without length draws nothing.
     pub fn stroke(&mut self, stroke: &Stroke) {
-        if (stroke.from == stroke.to && stroke.arc.is_none()) {
+        if !stroke.is_drawable() || (stroke.from == stroke.to && stroke.arc.is_none()) {
             return;
         }
         let cuts = stroke.kind == Kind::Feed && stroke.feed.is_finite();

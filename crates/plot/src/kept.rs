@@ -246,7 +246,7 @@ mod tests {
     fn surface(row: usize, column: usize) -> [f64; 3] {
         let column = if row.is_multiple_of(2) { column } else { 999 - column };
         let [x, y] = [column as f64 * 0.2, row as f64 * 0.2];
-        [x, y, 6.0 * libm::sin(x / 11.0) * libm::cos(y / 14.0)]
+        [x, y, 6.0 * libm::sin(x / 4.0) * libm::cos(y / 14.0)]
     }
 
     #[test]
@@ -267,7 +267,7 @@ mod tests {
         // Nothing was drawn that is not on the surface.
         for piece in drawn.pieces.iter().step_by(97) {
             let [x, y, z] = std::array::from_fn(|axis| 0.5 * (piece.from[axis] + piece.to[axis]));
-            assert!((z - 6.0 * libm::sin(x / 11.0) * libm::cos(y / 14.0)).abs() <= 2.0 * allowed_mm);
+            assert!((z - 6.0 * libm::sin(x / 4.0) * libm::cos(y / 14.0)).abs() <= 2.0 * allowed_mm);
         }
     }
 

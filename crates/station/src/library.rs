@@ -17,7 +17,7 @@ impl std::error::Error for LibraryError {}
 /// The texts at hand.
 pub trait Library {
     /// Reads at most `len` bytes of a source from `offset` on into `bytes` (cleared first). Returns true if the
-    /// source ends with them. Fewer bytes than asked for are fine; none without the end is not.
+    /// source ends with them. Fewer bytes than asked for are fine; none at all is taken for the end.
     ///
     /// # Errors
     /// The source cannot be read.

@@ -198,8 +198,8 @@ impl Lexer<'_> {
         }
         let (len, value) = match scan.number {
             Some(number) => {
-                if let Some((condition, at)) = scan.fault {
-                    self.fault(condition, from + 1 + at, 1);
+                if let Some((condition, _)) = scan.fault {
+                    self.fault(condition, from, 1 + scan.len);
                 }
                 (1 + scan.len, Value::Number(number))
             }
@@ -210,7 +210,7 @@ impl Lexer<'_> {
                 }
                 None | Some(Ok(0)) => {
                     match scan.fault {
-                        Some((condition, at)) => self.fault(condition, from + 1 + at, 1),
+                        Some((condition, _)) => self.fault(condition, from, 1 + scan.len),
                         None => self.fault(Condition::NumberMissing, from, 1),
                     }
                     (1 + scan.len, Value::Missing)
@@ -440,7 +440,7 @@ mod tests {
             blocks("X\nG1 5 X1..2\n&G1\n(A\nB)\nx1\n"),
             [
                 "1:1 X !number-missing@0",
-                "2:1 G15X1.2 !sign-or-point@8",
+                "2:1 G15X1.2 !sign-or-point@6",
                 "3:1 G1 !character-unknown@0",
                 "4:1  !comment-open@0",
                 "5:1 B !number-missing@0 !comment-close@1",

@@ -1,0 +1,203 @@
+//! Runs programs in a session and asserts what every run keeps. The fuzz target `interpret` uses it too.
+
+use std::sync::Arc;
+
+use base::{Place, Point, SourceId, Span};
+use machine::{Event, EventKind, MachineFile, builtin_machine, read_machine};
+use station::{Configuration, Library, LibraryError, Session, Setup, Step};
+
+/// Positions are exact to less than this, mm.
+pub const EXACTNESS_MM: f64 = 1e-9;
+
+/// Program texts in memory, handed out in pieces of these sizes in turn (no sizes: as much as is asked for).
+#[derive(Clone, Default)]
+pub struct Texts {
+    /// The texts; a source's id is its index.
+    pub texts: Vec<Vec<u8>>,
+    /// Numbers of programs, and the sources in which they stand, beside those found in open texts.
+    pub programs: Vec<(u32, SourceId)>,
+    /// Sizes of the pieces.
+    pub pieces: Vec<usize>,
+    turn: usize,
+}
+
+impl Texts {
+    /// One text, handed out in one piece.
+    pub fn one(text: impl Into<Vec<u8>>) -> Texts {
+        Texts { texts: vec![text.into()], ..Texts::default() }
+    }
+
+    /// The same in pieces.
+    pub fn in_pieces(mut self, pieces: &[usize]) -> Texts {
+        self.pieces = pieces.to_vec();
+        self
+    }
+}
+
+impl Library for Texts {
+    fn read(&mut self, source: SourceId, offset: u64, len: usize, bytes: &mut Vec<u8>) -> Result<bool, LibraryError> {
+        bytes.clear();
+        let Some(text) = self.texts.get(source.0 as usize) else { return Ok(true) };
+        let from = (offset as usize).min(text.len());
+        let len = match self.pieces.len() {
+            0 => len,
+            sizes => len.min(self.pieces[self.turn % sizes].max(1)),
+        };
+        self.turn += 1;
+        let to = (from + len).min(text.len());
+        bytes.extend_from_slice(&text[from..to]);
+        Ok(to == text.len())
+    }
+
+    fn find_program(&mut self, number: u32) -> Result<Option<SourceId>, LibraryError> {
+        Ok(self.programs.iter().find(|(known, _)| *known == number).map(|&(_, source)| source))
+    }
+}
+
+/// A built-in machine, its travel narrowed to ± this many mm if any are given.
+pub fn machine(name: &str, travel: Option<f64>) -> MachineFile {
+    let (file, text) = builtin_machine(name).expect("a machine that comes with the program");
+    let mut machine = read_machine(&file, text).expect("it is valid");
+    if let Some(travel) = travel {
+        machine.axes.iter_mut().for_each(|axis| axis.travel = [-travel, travel]);
+    }
+    machine
+}
+
+/// The first built-in control as it comes, on a machine, set up.
+pub fn configuration(machine: MachineFile, setup: &Setup) -> Configuration {
+    let name = dialect::builtin_controls().min().expect("there is a control");
+    let files = dialect::builtin_files(name).expect("its files are there");
+    let control = Arc::new(dialect::load_control(&files).expect("they are valid"));
+    Configuration::new(control, machine, &[setup]).expect("the set-up fits")
+}
+
+/// What is asserted of a run beyond what holds for all.
+#[derive(Clone, Copy)]
+pub struct Expect {
+    /// Events after which the run is given up: programs may be endless.
+    pub most_events: usize,
+    /// No axis ever leaves its travel, and each move begins where the one before ended. Not so while checking on
+    /// after an alarm.
+    pub stays_inside: bool,
+}
+
+/// Runs the selected program, pressing CYCLE START after every stop, and asserts what holds of every event.
+pub fn run(session: &mut Session<Texts>, expect: Expect) -> Vec<Event> {
+    let mut watch = Watch::new(session, expect.stays_inside);
+    let mut events = Vec::new();
+    let mut stops = 0;
+    session.start();
+    while events.len() < expect.most_events && stops < expect.most_events {
+        match session.next() {
+            Step::Event(event) => {
+                watch.see(&event, session);
+                events.push(event);
+            }
+            Step::Stopped => {
+                stops += 1;
+                session.start();
+            }
+            Step::Idle => break,
+            Step::Failed(error) => panic!("texts in memory can be read: {error}"),
+        }
+    }
+    events
+}
+
+/// Looks at every event of a session.
+pub struct Watch {
+    position: Point,
+    time: f64,
+    started: bool,
+    limits: Option<(Point, Point)>,
+    axes: usize,
+}
+
+impl Watch {
+    /// A watch on a session from now on.
+    pub fn new(session: &Session<Texts>, stays_inside: bool) -> Watch {
+        let machine = &session.configuration().machine;
+        let travel = machine.travel();
+        Watch {
+            position: *session.position(),
+            time: session.time().0,
+            started: false,
+            limits: stays_inside.then_some((travel.low, travel.high)),
+            axes: machine.axes.len(),
+        }
+    }
+
+    /// Asserts what holds of an event.
+    pub fn see(&mut self, event: &Event, session: &Session<Texts>) {
+        assert!(event.time.0.is_finite(), "{event:?}");
+        // What the machine answered while something moved is told when the block waits for it.
+        if !matches!(event.kind, EventKind::Finished(_)) {
+            assert!(event.time.0 >= self.time, "time runs on: {} {event:?}", self.time);
+            self.time = event.time.0;
+        }
+        self.started |= event.place.line > 0;
+        // Before its first block a program has no line.
+        let placeless = matches!(event.kind, EventKind::Start(_))
+            || (!self.started && matches!(event.kind, EventKind::BlockDone | EventKind::Reset { .. } | EventKind::Stop(_)));
+        if !placeless {
+            self.check_place(event, session);
+        }
+        match &event.kind {
+            EventKind::Rapid { from, to, duration, length } => {
+                self.check_move(event, from, to, duration.0, *length);
+                self.move_to(event, to);
+            }
+            EventKind::Feed { from, to, feed, duration, length } => {
+                assert!(feed.is_finite() && *feed > 0.0, "{event:?}");
+                self.check_move(event, from, to, duration.0, *length);
+                self.move_to(event, to);
+            }
+            EventKind::Arc { arc, feed, duration, length } => {
+                assert!(feed.is_finite() && *feed > 0.0, "{event:?}");
+                let numbers = [arc.center, arc.radius, [arc.sweep, arc.start_angle]].concat();
+                assert!(numbers.iter().all(|number| number.is_finite()), "{event:?}");
+                assert!(arc.sweep != 0.0 && arc.sweep.abs() <= std::f64::consts::TAU, "{event:?}");
+                self.check_move(event, &arc.from, &arc.to, duration.0, *length);
+                (1..16).for_each(|part| self.check_inside(event, &arc.at(f64::from(part) / 16.0)));
+                self.move_to(event, &arc.to);
+            }
+            EventKind::Alarm(alarm) => {
+                assert!(alarm.values.iter().all(|value| !value.is_nan()), "{event:?}");
+            }
+            EventKind::End { to, .. } => assert!(to.iter().all(|mm| mm.is_finite()), "{event:?}"),
+            _ => {}
+        }
+    }
+
+    fn check_place(&self, event: &Event, session: &Session<Texts>) {
+        let Place { source, line, line_start, block, .. } = event.place;
+        let text = session.library().texts.get(source.0 as usize).expect("the source is one of the texts");
+        assert!(line >= 1 && line_start <= block.start, "{event:?}");
+        assert!(block.end() <= text.len() as u64, "the block lies in its text: {event:?}");
+        if let EventKind::Alarm(alarm) = &event.kind {
+            let Span { start, .. } = alarm.span;
+            assert_eq!(alarm.place, event.place);
+            assert!(block.start <= start && alarm.span.end() <= block.end(), "the word lies in its block: {event:?}");
+        }
+    }
+
+    fn check_move(&self, event: &Event, from: &Point, to: &Point, seconds: f64, length: f64) {
+        assert!([from, to].iter().all(|point| point.iter().all(|mm| mm.is_finite())), "{event:?}");
+        assert!(seconds.is_finite() && seconds >= 0.0 && length.is_finite() && length >= 0.0, "{event:?}");
+        if self.limits.is_some() {
+            assert_eq!(*from, self.position, "a move begins where the axes are: {event:?}");
+        }
+        self.check_inside(event, to);
+    }
+
+    fn check_inside(&self, event: &Event, point: &Point) {
+        let Some((low, high)) = &self.limits else { return };
+        let inside = |axis: usize| point[axis] >= low[axis] - EXACTNESS_MM && point[axis] <= high[axis] + EXACTNESS_MM;
+        assert!((0..self.axes).all(inside), "{point:?} leaves the travel: {event:?}");
+    }
+
+    fn move_to(&mut self, _event: &Event, to: &Point) {
+        self.position = *to;
+    }
+}

@@ -1,0 +1,77 @@
+//! The corpus of a control as a whole: nothing left out, nothing raised unseen.
+
+use std::fs;
+use std::path::Path;
+
+use crate::case::Case;
+use crate::motion::{read_event, text};
+use crate::rules::Rules;
+use crate::{file_name, folders};
+
+/// Every rule of `rules.toml` has a folder that begins with its number, as `r29-`, and that folder says so in `covers`.
+///
+/// # Errors
+/// The rules without a folder, and the folders that do not cover their rule.
+pub fn rules_have_folders(control: &Path) -> Result<(), String> {
+    let rules = Rules::read(control)?;
+    if rules.rules.is_empty() {
+        return Err("rules.toml lists no rules".to_owned());
+    }
+    let folders = folders(control)?;
+    let mut faults = Vec::new();
+    for rule in &rules.rules {
+        let number: u32 = rule.trim_start_matches('R').parse().map_err(|_| format!("`{rule}` is no rule's name"))?;
+        let start = format!("r{number:02}-");
+        let own: Vec<_> = folders.iter().filter(|folder| file_name(folder).starts_with(&start)).collect();
+        if own.is_empty() {
+            faults.push(format!("{rule} has no folder {start}…"));
+        }
+        for folder in own {
+            if !Case::read(folder)?.covers.contains(rule) {
+                faults.push(format!("{}: `covers` does not name {rule}", file_name(folder)));
+            }
+        }
+    }
+    report(faults)
+}
+
+/// Every alarm that a case's `out.trace` raises stands in the case's `covers`.
+///
+/// # Errors
+/// The alarms that do not.
+pub fn alarms_are_covered(control: &Path) -> Result<(), String> {
+    let mut faults = Vec::new();
+    for folder in folders(control)? {
+        let Ok(trace) = fs::read_to_string(folder.join("out.trace")) else { continue };
+        let covers = Case::read(&folder)?.covers;
+        for line in trace.lines().filter(|line| line.contains("\"event\":\"alarm\"")) {
+            let event = read_event(line)?;
+            let alarm = text(&event, "name");
+            if !covers.iter().any(|covered| covered == alarm) {
+                faults.push(format!("{}: `covers` does not name the alarm {alarm}", file_name(&folder)));
+            }
+        }
+    }
+    report(faults)
+}
+
+/// Every rule, table and program that a case covers is described in `rules.toml`.
+///
+/// # Errors
+/// Those that are not.
+pub fn covers_are_known(control: &Path) -> Result<(), String> {
+    let rules = Rules::read(control)?;
+    let mut faults = Vec::new();
+    for folder in folders(control)? {
+        for covered in Case::read(&folder)?.covers {
+            if !rules.knows(&covered) {
+                faults.push(format!("{}: `covers` names {covered}, which rules.toml does not describe", file_name(&folder)));
+            }
+        }
+    }
+    report(faults)
+}
+
+fn report(faults: Vec<String>) -> Result<(), String> {
+    if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
+}

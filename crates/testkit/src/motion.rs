@@ -1,0 +1,41 @@
+//! The motion in a trace, freed of the lines it comes from.
+
+use serde_json::Value;
+
+/// Events that are motion.
+const MOTION: &[&str] = &["rapid", "feed", "arc", "dwell"];
+
+/// Fields in which two programs that move alike agree.
+const FIELDS: &[&str] = &["event", "to", "f", "plane", "center", "sweep", "seconds", "revolutions"];
+
+/// The motion events of a trace, one a line, with the fields that say where and how the axes go.
+///
+/// # Errors
+/// A line that is no JSON object.
+pub(crate) fn motion_of(trace: &str) -> Result<String, String> {
+    let mut lines = String::new();
+    for line in trace.lines() {
+        let event = read_event(line)?;
+        if !MOTION.contains(&text(&event, "event")) {
+            continue;
+        }
+        let kept: Vec<String> =
+            FIELDS.iter().filter_map(|field| event.get(field).map(|value| format!("{field} {value}"))).collect();
+        lines.push_str(&kept.join("  "));
+        lines.push('\n');
+    }
+    Ok(lines)
+}
+
+/// A line of a trace.
+///
+/// # Errors
+/// It is no JSON.
+pub(crate) fn read_event(line: &str) -> Result<Value, String> {
+    serde_json::from_str(line).map_err(|error| format!("`{line}` is no event: {error}"))
+}
+
+/// A text field of an event; empty if it has none.
+pub(crate) fn text<'e>(event: &'e Value, field: &str) -> &'e str {
+    event.get(field).and_then(Value::as_str).unwrap_or_default()
+}
