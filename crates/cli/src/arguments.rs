@@ -32,7 +32,9 @@ pub enum Command {
     #[command(after_help = "Example:\n  cyclestart trace part.nc --time | head")]
     Trace(TraceArguments),
     /// Perform an operator's script and print the events as JSON Lines
-    #[command(after_help = "Example:\n  printf 'load part.nc as O1\\nselect O1\\ncycle-start\\nrun until stop\\nshow modal\\n' | cyclestart operate -")]
+    #[command(
+        after_help = "Example:\n  printf 'load part.nc as O1\\nselect O1\\ncycle-start\\nrun until stop\\nshow modal\\n' | cyclestart operate -"
+    )]
     Operate(OperateArguments),
     /// Draw the tool path as SVG or PNG
     #[command(after_help = "Example:\n  cyclestart plot part.nc -o part.svg")]

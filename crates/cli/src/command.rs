@@ -34,7 +34,11 @@ pub fn run_through(
     mut see: impl FnMut(&mut Session<Texts>, &Event) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     for piece in 0..repeat {
-        if piece == 0 { session.start() } else { session.start_over() }
+        if piece == 0 {
+            session.start()
+        } else {
+            session.start_over()
+        }
         loop {
             match session.next() {
                 Step::Event(event) => see(session, &event)?,

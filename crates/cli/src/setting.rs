@@ -116,7 +116,9 @@ fn setup_of(arguments: &SettingArguments, common_offsets: bool) -> Result<Setup,
         for part in axes.split(',') {
             let part = part.trim();
             match part.as_bytes().first() {
-                Some(letter @ b'A'..=b'Z') => setup.work.push((system.to_owned(), *letter, number("work", &part[1..])?)),
+                Some(letter @ b'A'..=b'Z') => {
+                    setup.work.push((system.to_owned(), *letter, number("work", &part[1..])?))
+                }
                 _ => return Err(Failure::call(format!("--work {text}: write G54=X100,Y50,Z-20"))),
             }
         }

@@ -77,7 +77,9 @@ impl Texts {
     pub fn program_name(file: &str) -> String {
         match file {
             "-" => "stdin".to_owned(),
-            _ => Path::new(file).file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned()),
+            _ => {
+                Path::new(file).file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())
+            }
         }
     }
 }
@@ -154,7 +156,8 @@ fn find_file(folder: &Path, number: u32) -> Option<PathBuf> {
         let path = entry.path();
         let stem = path.file_stem()?.to_str().unwrap_or_default();
         let digits = stem.strip_prefix(['O', 'o']).unwrap_or_default();
-        let is_number = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) && digits.parse() == Ok(number);
+        let is_number =
+            !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) && digits.parse() == Ok(number);
         let ending = path.extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase());
         if let (true, Some(rank)) = (is_number, ENDINGS.iter().position(|known| *known == ending))
             && path.is_file()

@@ -19,7 +19,11 @@ impl<'t> Document<'t> {
     ///
     /// # Errors
     /// All errors of the file, in the order in which they were found; the text's own TOML errors among them.
-    pub fn read<T>(file: &str, text: &'t str, build: impl FnOnce(&mut Table<'_, 't>) -> T) -> Result<T, Vec<DataError>> {
+    pub fn read<T>(
+        file: &str,
+        text: &'t str,
+        build: impl FnOnce(&mut Table<'_, 't>) -> T,
+    ) -> Result<T, Vec<DataError>> {
         let document = Document { file: file.to_owned(), text, errors: RefCell::default() };
         let parsed = DeTable::parse(text).map_err(|error| {
             let range = error.span().unwrap_or(0..0);
@@ -209,7 +213,9 @@ impl<'d, 't> Entry<'d, 't> {
     /// The value as a whole number.
     pub fn integer(&self) -> Option<i64> {
         match self.value.get_ref() {
-            DeValue::Integer(number) => i64::from_str_radix(number.as_str(), number.radix()).ok().or_else(|| self.wrong("a whole number")),
+            DeValue::Integer(number) => {
+                i64::from_str_radix(number.as_str(), number.radix()).ok().or_else(|| self.wrong("a whole number"))
+            }
             _ => self.wrong("a whole number"),
         }
     }

@@ -71,7 +71,8 @@ fn fill(text: &str, alarm: &Alarm, word: &str, axis: Option<(char, bool)>) -> St
         let Some(close) = rest[open..].find('}') else { break };
         let name = &rest[open + 1..open + close];
         rest = &rest[open + close + 1..];
-        let value = |digit: &str| digit.parse::<usize>().ok().and_then(|n| alarm.values.get(n.wrapping_sub(1)).copied());
+        let value =
+            |digit: &str| digit.parse::<usize>().ok().and_then(|n| alarm.values.get(n.wrapping_sub(1)).copied());
         match name.split_once(':') {
             Some((digit, "mm")) => {
                 let unit = if axis.is_some_and(|(_, turns)| turns) { "deg" } else { "mm" };

@@ -28,7 +28,8 @@ pub fn check_combination(control: &Control, fitting: &Fitting, written: Written)
         return Ok(());
     }
     let meaning = |index: usize| control.g_codes.get(usize::from(written.rows[index])).map(|row| row.meaning);
-    let is_one_shot = |index: usize| control.g_codes.get(usize::from(written.rows[index])).is_some_and(|row| row.is_one_shot());
+    let is_one_shot =
+        |index: usize| control.g_codes.get(usize::from(written.rows[index])).is_some_and(|row| row.is_one_shot());
     let mut one_shot = None;
     let mut motion_code = None;
     let mut cycle_code = None;

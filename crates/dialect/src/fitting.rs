@@ -192,7 +192,8 @@ impl Fitting {
     fn decide(&self, rule: &GroupRule) -> Option<u8> {
         let Some((index, bits, rows)) = &rule.parameter else { return rule.row };
         let value = self.bits(*index);
-        let choice = bits.iter().enumerate().fold(0, |choice, (place, bit)| choice | usize::from(value >> bit & 1) << place);
+        let choice =
+            bits.iter().enumerate().fold(0, |choice, (place, bit)| choice | usize::from(value >> bit & 1) << place);
         rows.get(choice).copied().unwrap_or(rule.row)
     }
 

@@ -20,15 +20,18 @@ pub use address::{Address, AddressKind, PointRule};
 pub use alarm::AlarmRow;
 pub use builtin::{builtin_controls, builtin_files};
 pub use combination::{Written, check_combination};
-pub use control::{Control, GroupCodes, Group, GroupRule, Grouping, MOST_GROUPS, NO_CODE, Roles, Tolerances};
+pub use control::{Control, Group, GroupCodes, GroupRule, Grouping, MOST_GROUPS, NO_CODE, Roles, Tolerances};
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use load::{ControlFiles, load_control};
 pub use meaning::{MMeaning, Meaning};
 pub use policy::{
     ArcWithoutCentre, CycleL0Moves, CycleWithMotion, FeedModeChange, G92System, InchFeedInteger, M01OffOutput, MOver99,
-    OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ResetPointer, StrokeCheck,
+    OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter,
+    ResetPointer, StrokeCheck,
 };
-pub use row::{Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow};
+pub use row::{
+    Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,
+};
 
 #[cfg(test)]
 mod tests {

@@ -107,8 +107,12 @@ fn grammar(root: &mut Table) -> (Grammar, bool, Grouping) {
             semicolon: t
                 .choice("semicolon", &[("end-of-block", Semicolon::EndOfBlock), ("comment", Semicolon::Comment)])
                 .unwrap_or_default(),
-            lower_case: t.choice("lower_case", &[("refuse", LowerCase::Refuse), ("fold", LowerCase::Fold)]).unwrap_or_default(),
-            colon: t.choice("colon", &[("program-number", Colon::ProgramNumber), ("refuse", Colon::Refuse)]).unwrap_or_default(),
+            lower_case: t
+                .choice("lower_case", &[("refuse", LowerCase::Refuse), ("fold", LowerCase::Fold)])
+                .unwrap_or_default(),
+            colon: t
+                .choice("colon", &[("program-number", Colon::ProgramNumber), ("refuse", Colon::Refuse)])
+                .unwrap_or_default(),
             block_length: t.integer("block_length").and_then(|n| u32::try_from(n).ok()).unwrap_or(u32::MAX),
         };
         let last = t.choice("repeated_word", &[("last-wins", true), ("refuse", false)]).unwrap_or(true);
@@ -136,12 +140,14 @@ fn head(root: &mut Table) -> Head {
         root.require(key);
     }
     let increments = root.table("increments", |t| {
-        let mut counts = |key, unit: f64, fallback: i64| t.number(key).map_or(fallback, |value| (value * unit).round() as i64);
+        let mut counts =
+            |key, unit: f64, fallback: i64| t.number(key).map_or(fallback, |value| (value * unit).round() as i64);
         [counts("metric_mm", 1e6, 1000), counts("inch_in", 25.4e6, 2540), counts("rotary_deg", 1e6, 1000)]
     });
     let increments = increments.filter(|all| all.iter().all(|&n| n > 0)).unwrap_or([1000, 2540, 1000]);
-    let read_ahead =
-        root.table("read_ahead", |t| [small(t.integer("blocks")), small(t.integer("compensation")), small(t.integer("buffering"))]);
+    let read_ahead = root.table("read_ahead", |t| {
+        [small(t.integer("blocks")), small(t.integer("compensation")), small(t.integer("buffering"))]
+    });
     let levels = root.table("nesting", |t| [small(t.integer("subprograms")), small(t.integer("macros"))]);
     let offsets = root.table("offsets", |t| {
         let common = t.choice("table", &[("common", true), ("columns", false)]).unwrap_or(true);
@@ -189,7 +195,8 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     let parameters = files.read("parameters.toml", settings::parameters).map_err(&mut keep).ok();
     let addresses = files.read("addresses.toml", settings::addresses).map_err(&mut keep).ok();
     let m_codes = files.read("m_codes.toml", codes::m_codes).map_err(&mut keep).ok();
-    let (Some(head), Some(parameters), Some(addresses), Some((m_ranges, m_codes))) = (head, parameters, addresses, m_codes)
+    let (Some(head), Some(parameters), Some(addresses), Some((m_ranges, m_codes))) =
+        (head, parameters, addresses, m_codes)
     else {
         return Err(errors);
     };
@@ -271,7 +278,9 @@ fn resolve_groups(
             codes::row_of_name(rows, name)
                 .filter(|&row| rows[usize::from(row)].group == Some(index as u8))
                 .map(Some)
-                .ok_or_else(|| refuse(files, "control.toml", format!("group {}: {name} is no code of it", draft.number)))
+                .ok_or_else(|| {
+                    refuse(files, "control.toml", format!("group {}: {name} is no code of it", draft.number))
+                })
         };
         let rule = |draft_rule: &codes::RuleDraft| -> Result<GroupRule, Vec<DataError>> {
             let parameter = match &draft_rule.parameter {

@@ -89,7 +89,9 @@ impl Control {
     ) -> Result<f64, Refused> {
         let (plain, unit, range) = match units {
             UnitSystem::Metric => (MM, MM, address.feed[0]),
-            UnitSystem::Inch => (if inch_tenths { NM_PER_INCH / 10 } else { NM_PER_INCH }, NM_PER_INCH, address.feed[1]),
+            UnitSystem::Inch => {
+                (if inch_tenths { NM_PER_INCH / 10 } else { NM_PER_INCH }, NM_PER_INCH, address.feed[1])
+            }
         };
         feed(number, plain, unit, range)
     }
@@ -114,7 +116,9 @@ fn counts(number: Decimal, increment: i64, unit: i64, range: [f64; 2]) -> Result
             // The usual case first: thousandths of a mm or degree.
             1000 => number.scaled(3),
             10_000 => number.scaled(4),
-            per_unit => number.scaled(9).map(|value| round_half_away(i128::from(value) * i128::from(per_unit), 1_000_000_000)),
+            per_unit => {
+                number.scaled(9).map(|value| round_half_away(i128::from(value) * i128::from(per_unit), 1_000_000_000))
+            }
         }
     } else {
         number.integer()
@@ -124,7 +128,8 @@ fn counts(number: Decimal, increment: i64, unit: i64, range: [f64; 2]) -> Result
     match value {
         Some(value) if in_units >= range[0] && in_units <= range[1] => Ok(value),
         _ => {
-            let written = if number.point { number.to_f64() } else { number.to_f64() * (increment as f64 / unit as f64) };
+            let written =
+                if number.point { number.to_f64() } else { number.to_f64() * (increment as f64 / unit as f64) };
             Err((Condition::ValueOutOfRange, [written, range[0], range[1]]))
         }
     }

@@ -95,8 +95,12 @@ mod tests {
         for (clockwise, radius, y) in
             [(true, 12.5e6, -height), (true, -12.5e6, height), (false, 12.5e6, height), (false, -12.5e6, -height)]
         {
-            let solved = solve(ArcWords { clockwise, radius: Some(radius), ..words() }).expect("it spans").expect("it moves");
-            assert!((solved.center[0] - 10e6).abs() < 1e-3 && (solved.center[1] - y).abs() < 1e-3, "{clockwise} {radius}");
+            let solved =
+                solve(ArcWords { clockwise, radius: Some(radius), ..words() }).expect("it spans").expect("it moves");
+            assert!(
+                (solved.center[0] - 10e6).abs() < 1e-3 && (solved.center[1] - y).abs() < 1e-3,
+                "{clockwise} {radius}"
+            );
         }
     }
 

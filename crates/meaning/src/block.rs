@@ -3,57 +3,18 @@
 //! 1 block delete · 2 modal G codes, the last of each group · 3 F S T B D H and M · 4 the one-shot code, the cycle or
 //! the movement · 5 what ends the block. A refused block leaves everything as it was: the work is done on copies.
 
-use std::sync::Arc;
-
-use base::{AXES, Alarm, AxisSet, Condition, Point, UnitSystem};
-use dialect::{Control, Fitting, InchFeedInteger, Meaning, Written, check_combination};
+use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
+use dialect::{InchFeedInteger, Meaning};
 use syntax::Block;
 
-use crate::command::{Body, Command};
-use crate::facts::{MachineFacts, Memory, Switches};
+use crate::command::Command;
 use crate::jump::{Calls, Found};
-use crate::operation::{Dwell, RapidKind, Side};
+use crate::operation::{RapidKind, Side};
 use crate::position_offset::PositionOffset;
+use crate::setting::Setting;
 use crate::state::{FeedWord, State};
 use crate::unknown::letter_bit;
-use crate::word::{MOST_G, Refusal, Words};
-
-/// What holds while programs run.
-pub(crate) struct Setting {
-    pub control: Arc<Control>,
-    pub fitting: Fitting,
-    pub facts: MachineFacts,
-    pub memory: Memory,
-    pub switches: Switches,
-    /// The axis on which the length offset acts.
-    pub length_axis: Option<usize>,
-    /// The letters of all axes, one bit each.
-    pub axis_letters: u32,
-    /// The letters of codes that go out.
-    pub code_letters: u32,
-}
-
-impl Setting {
-    /// Counts to mm and degrees.
-    pub fn to_mm(&self, counts: &Point) -> Point {
-        to_mm(counts, self.facts.axes.len())
-    }
-
-    /// #6005 D5: G92 presets the UNIVERSAL display.
-    pub fn presets_universal(&self) -> bool {
-        let bits = self.fitting.parameter_by_name(&self.control, "6005").unwrap_or(0.0) as u8;
-        bits & (1 << 5) != 0
-    }
-}
-
-/// Counts to mm and degrees on the first `axes` axes.
-pub(crate) fn to_mm(counts: &Point, axes: usize) -> Point {
-    let mut mm = [0.0; AXES];
-    for axis in 0..axes.min(AXES) {
-        mm[axis] = counts[axis] / 1e6;
-    }
-    mm
-}
+use crate::word::{Refusal, Words};
 
 /// Where the program goes on after a block.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -226,75 +187,6 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// Modal codes come into force, one-shot codes are noted, their company is checked.
-    fn take_g_codes(&mut self) -> Result<(), Alarm> {
-        let control = self.setting.control.as_ref();
-        let roles = control.roles;
-        if !self.words.has(b'G') {
-            return Ok(());
-        }
-        let mut rows = [0u8; MOST_G];
-        let mut places = [0usize; MOST_G];
-        let mut count = 0;
-        for (index, word) in self.words.block.words.iter().take(self.word_count).enumerate() {
-            if word.letter != b'G' {
-                continue;
-            }
-            let row = self.g_row(word)?;
-            if count < MOST_G {
-                rows[count] = row;
-                places[count] = index;
-                count += 1;
-            }
-            let Some(code) = control.g_codes.get(usize::from(row)) else { continue };
-            match code.group {
-                Some(group) => {
-                    self.next.groups.0[usize::from(group)] = row;
-                    self.groups_written |= 1 << group;
-                    // Any movement code ends a canned cycle.
-                    if code.meaning.is_motion()
-                        && let Some(off) = control.row_of(Meaning::CycleOff)
-                    {
-                        self.next.groups.0[roles.cycle] = off;
-                    }
-                }
-                None => self.one_shot = Some((code.meaning, index)),
-            }
-        }
-        let motion = control.in_force(&self.next.groups, roles.motion);
-        let written = Written { rows: &rows[..count], motion };
-        check_combination(control, &self.setting.fitting, written).map_err(|(condition, index)| {
-            match self.words.block.words.get(places[index]) {
-                Some(word) => self.words.alarm_at(condition, word),
-                None => self.words.alarm(condition, b'G'),
-            }
-        })
-    }
-
-    fn g_row(&self, word: &syntax::Word) -> Result<u8, Alarm> {
-        let control = self.setting.control.as_ref();
-        let number = self.words.value(word)?;
-        let Some(address) = control.address(b'G') else {
-            return Err(self.words.alarm_at(Condition::AddressUnavailable, word));
-        };
-        let code = control
-            .integer(address, number)
-            .map_err(|(condition, values)| self.words.alarm_at(condition, word).with(values))?;
-        let values = [code as f64, 0.0, 0.0];
-        let Some(row) = control.g_row(code) else {
-            return Err(self.words.alarm_at(Condition::GUnknown, word).with(values));
-        };
-        let division = control.g_codes[usize::from(row)].division;
-        if !self.setting.fitting.has(division) {
-            let condition = match division {
-                dialect::Division::Sibling => Condition::GUnknown,
-                _ => Condition::GNotFitted,
-            };
-            return Err(self.words.alarm_at(condition, word).with(values));
-        }
-        Ok(row)
-    }
-
     /// F, H, D; of O and N only the range matters here.
     fn take_values(&mut self) -> Result<(), Alarm> {
         for letter in [b'O', b'N'] {
@@ -369,85 +261,6 @@ impl Reading<'_> {
             Some(cycle) => self.cycle_block(cycle),
             None => self.motion(motion),
         }
-    }
-
-    /// Modal codes whose meaning is not built yet are refused where they are written.
-    fn refuse_unbuilt_modes(&self) -> Result<(), Alarm> {
-        use Meaning::{ModalMacroCall, RotationOn, ScalingOn};
-        let control = self.setting.control.as_ref();
-        for (index, _) in control.groups.iter().enumerate() {
-            let unbuilt = match control.in_force(&self.next.groups, index) {
-                Some(ScalingOn | RotationOn | ModalMacroCall) => true,
-                Some(Meaning::StrokeCheckOn) => self.words.has_any(letter_bit(b'X') | letter_bit(b'I')),
-                Some(code) if code.is_cycle() => crate::cycle::steps_of(code).is_none(),
-                _ => false,
-            };
-            if unbuilt && self.groups_written & (1 << index) != 0 {
-                let row = self.next.groups.0[index];
-                let code = control.g_codes.get(usize::from(row)).map_or(0, |code| code.code);
-                return Err(self.g_alarm(Condition::NotYetBuilt, i64::from(code)));
-            }
-        }
-        Ok(())
-    }
-
-    /// An alarm at the word of a G code.
-    fn g_alarm(&self, condition: Condition, code: i64) -> Alarm {
-        let is_it = |word: &&syntax::Word| {
-            word.letter == b'G' && matches!(word.value, syntax::Value::Number(number) if number.integer() == Some(code))
-        };
-        match self.words.block.words.iter().find(is_it) {
-            Some(word) => self.words.alarm_at(condition, word).with([code as f64, 0.0, 0.0]),
-            None => self.words.alarm(condition, b'G').with([code as f64, 0.0, 0.0]),
-        }
-    }
-
-    /// An alarm at the block's one-shot code.
-    pub fn one_shot_alarm(&self, condition: Condition) -> Alarm {
-        match self.one_shot.and_then(|(_, index)| self.words.block.words.get(index)) {
-            Some(word) => self.words.alarm_at(condition, word),
-            None => self.words.alarm(condition, b'G'),
-        }
-    }
-
-    /// An alarm at the block's movement code, or at its first axis word.
-    pub fn motion_alarm(&self, condition: Condition) -> Alarm {
-        let words = &self.words.block.words;
-        let is_motion = |word: &&syntax::Word| {
-            word.letter == b'G'
-                && matches!(word.value, syntax::Value::Number(number) if number.integer().is_some_and(|code| {
-                    let row = self.setting.control.g_row(code);
-                    row.is_some_and(|row| {
-                        let meaning = self.setting.control.g_codes[usize::from(row)].meaning;
-                        meaning.is_motion() || meaning.is_cycle()
-                    })
-                }))
-        };
-        let is_axis = |word: &&syntax::Word| self.setting.axis_letters & letter_bit(word.letter) != 0;
-        let taken = &words[..self.word_count.min(words.len())];
-        match taken.iter().find(is_motion).or_else(|| taken.iter().find(is_axis)) {
-            Some(word) => self.words.alarm_at(condition, word),
-            None => Alarm::new(condition, self.words.place, self.words.place.block),
-        }
-    }
-
-    /// G04: P in milliseconds without a point, seconds with one; X likewise where that is fitted.
-    fn dwell(&mut self) -> Result<(), Alarm> {
-        let control = self.setting.control.clone();
-        let letter = if self.words.has(b'P') || !self.setting.fitting.options.dwell_x { b'P' } else { b'X' };
-        let seconds = match letter {
-            b'P' => self.words.seconds(&control, b'P')?,
-            _ => match (self.words.number(b'X')?, control.address(b'P')) {
-                (Some(number), Some(address)) => Some(
-                    control
-                        .dwell_seconds(address, number)
-                        .map_err(|(condition, values)| self.words.alarm(condition, b'X').with(values))?,
-                ),
-                _ => None,
-            },
-        };
-        self.command.body = Body::Dwell(Dwell::Seconds(seconds.unwrap_or(0.0)));
-        Ok(())
     }
 
     /// The axes that have a word in this block.

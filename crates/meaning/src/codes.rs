@@ -109,7 +109,14 @@ impl Reading<'_> {
         }
     }
 
-    fn push_code(&mut self, line: CodeLine, code: u32, digits: u8, after: bool, word: &syntax::Word) -> Result<(), Alarm> {
+    fn push_code(
+        &mut self,
+        line: CodeLine,
+        code: u32,
+        digits: u8,
+        after: bool,
+        word: &syntax::Word,
+    ) -> Result<(), Alarm> {
         if code >= 10u32.saturating_pow(u32::from(digits)) {
             let values = [f64::from(code), f64::from(digits), 0.0];
             return Err(self.words.alarm_at(Condition::CodeTooLargeForLines, word).with(values));

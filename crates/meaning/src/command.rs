@@ -5,8 +5,8 @@ use dialect::GroupCodes;
 use syntax::Extent;
 
 use crate::cycle::Holes;
-use crate::program::Frame;
 use crate::operation::{CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
+use crate::program::Frame;
 use crate::state::State;
 
 /// Most codes that one block sends.
@@ -16,11 +16,28 @@ pub(crate) const MOST_CODES: usize = 8;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Body {
     Nothing,
-    Rapid { to: Point, kind: RapidKind },
+    Rapid {
+        to: Point,
+        kind: RapidKind,
+    },
     /// Two rapids, with a stop point between them.
-    Via { via: Point, to: Point },
-    Line { to: Point, feed: Feed },
-    Arc { to: Point, center: [f64; 2], axes: [u8; 2], plane: Plane, clockwise: bool, full_circle: bool, feed: Feed },
+    Via {
+        via: Point,
+        to: Point,
+    },
+    Line {
+        to: Point,
+        feed: Feed,
+    },
+    Arc {
+        to: Point,
+        center: [f64; 2],
+        axes: [u8; 2],
+        plane: Plane,
+        clockwise: bool,
+        full_circle: bool,
+        feed: Feed,
+    },
     Dwell(Dwell),
     Set(SetValue, Option<SetValue>),
     Holes(Holes),

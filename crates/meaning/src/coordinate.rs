@@ -5,9 +5,10 @@
 use base::{AXES, Alarm, AxisSet, Condition};
 use dialect::Meaning;
 
-use crate::block::{Reading, Setting};
+use crate::block::Reading;
 use crate::command::Body;
 use crate::operation::SetValue;
+use crate::setting::Setting;
 use crate::state::State;
 
 /// The axis on which the tool length offset acts, whatever the plane.
@@ -55,7 +56,11 @@ impl Reading<'_> {
                 let number = self.next.h;
                 let Some(value) = self.setting.memory.length(number) else {
                     let highest = f64::from(control.highest_offset);
-                    return Err(self.words.alarm(Condition::OffsetNumber, b'H').with([f64::from(number), highest, 0.0]));
+                    return Err(self.words.alarm(Condition::OffsetNumber, b'H').with([
+                        f64::from(number),
+                        highest,
+                        0.0,
+                    ]));
                 };
                 factor * value
             }

@@ -97,8 +97,12 @@ pub(crate) enum Step {
 type StepFn = fn(&Holes, &mut Cursor) -> Step;
 
 /// The cycles that are built: a new one is a file and a line here.
-const CYCLES: &[(Meaning, StepFn)] =
-    &[(Meaning::Drill, drill::step), (Meaning::Spot, spot::step), (Meaning::Peck, peck::step), (Meaning::Tap, tap::step)];
+const CYCLES: &[(Meaning, StepFn)] = &[
+    (Meaning::Drill, drill::step),
+    (Meaning::Spot, spot::step),
+    (Meaning::Peck, peck::step),
+    (Meaning::Tap, tap::step),
+];
 
 /// The steps of a cycle, if it is built.
 pub(crate) fn steps_of(cycle: Meaning) -> Option<StepFn> {

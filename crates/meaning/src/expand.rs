@@ -2,10 +2,10 @@
 
 use base::{AXES, AxisSet, Point};
 
-use crate::block::to_mm;
 use crate::command::{Body, Command, Finish};
 use crate::cycle::{Cursor, Holes, Spindle, Step, steps_of};
 use crate::operation::{Act, ArcMove, Close, CodeLine, CodeOut, Dwell, Feed, Operation, RapidKind};
+use crate::setting::to_mm;
 
 /// Which part of the block is next.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use base::{AXES, AxisSet, Place, Point, ProgramId, SourceId};
 use dialect::{Control, Fitting, M01OffOutput, ResetPointer};
 
-use crate::block::Setting;
 use crate::command::{Body, Command, Finish};
 use crate::expand::{Expansion, Surroundings};
 use crate::facts::{MachineFacts, Memory, Switches};
@@ -13,6 +12,7 @@ use crate::operation::{Act, Close, EndKind, Operation};
 use crate::pull::{Answer, Barrier, BarrierKind, Pull, StaleBarrier};
 use crate::queue::Queue;
 use crate::reader::{Read, Reader, empty_command};
+use crate::setting::Setting;
 use crate::state::State;
 use crate::supply::WINDOW;
 use crate::unknown::letter_bit;

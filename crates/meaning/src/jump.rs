@@ -180,7 +180,13 @@ impl Search {
     }
 
     /// Goes on as far as the text at hand allows.
-    pub fn advance(&mut self, supply: &mut Supply, grammar: &Grammar, names: &mut Names, block: &mut Block) -> Progress {
+    pub fn advance(
+        &mut self,
+        supply: &mut Supply,
+        grammar: &Grammar,
+        names: &mut Names,
+        block: &mut Block,
+    ) -> Progress {
         loop {
             let source = match (self.stage, self.target) {
                 (Stage::Asked, Target::Program { number, .. }) => return Progress::NeedProgram { number },
@@ -263,4 +269,3 @@ impl Search {
         None
     }
 }
-

@@ -27,7 +27,9 @@ impl Reading<'_> {
             let change = offset.change(target - now, minus && value == 0.0);
             self.next.displacement[axis] += change;
             target += change;
-        } else if self.absolute && self.setting.fitting.policies.position_offset_absolute == PositionOffsetAbsolute::Dropped {
+        } else if self.absolute
+            && self.setting.fitting.policies.position_offset_absolute == PositionOffsetAbsolute::Dropped
+        {
             self.next.displacement[axis] = 0.0;
         }
         Ok(target)
@@ -201,13 +203,23 @@ impl Reading<'_> {
         let words = ArcWords {
             start: [from[u], from[v]],
             end: [to[u], to[v]],
-            center: if has_center { Some([self.centre_word(letters[0])?, self.centre_word(letters[1])?]) } else { None },
+            center: if has_center {
+                Some([self.centre_word(letters[0])?, self.centre_word(letters[1])?])
+            } else {
+                None
+            },
             radius,
             clockwise,
             radius_tolerance: self.setting.fitting.parameter(tolerances.arc_radius) * 1e6,
             end_limit: self.setting.fitting.parameter(tolerances.arc_end) * 1e6,
         };
-        let letter = if radius.is_some() { b'R' } else if self.words.has(letters[0]) { letters[0] } else { letters[1] };
+        let letter = if radius.is_some() {
+            b'R'
+        } else if self.words.has(letters[0]) {
+            letters[0]
+        } else {
+            letters[1]
+        };
         let solved = solve(words).map_err(|(condition, values)| match condition {
             Condition::ArcWithoutCentre => self.motion_alarm(condition),
             Condition::ArcEndOff => {

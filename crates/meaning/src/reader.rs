@@ -4,11 +4,13 @@ use base::{AXES, Alarm, AxisSet, Condition, Place, Point, ProgramId, SourceId, S
 use dialect::Grouping;
 use syntax::{Block, Cursor, Outcome, Value, read_block};
 
-use crate::block::{Flow, Setting, read_meaning};
+use crate::block::{Flow, read_meaning};
 use crate::command::{Body, Command, Finish, MOST_CODES};
 use crate::jump::{Calls, Found, Progress, Search};
 use crate::operation::{CodeLine, CodeOut, EndKind, Side};
 use crate::program::{Frame, Names};
+use crate::repetition::Repetition;
+use crate::setting::Setting;
 use crate::state::State;
 use crate::supply::Supply;
 use crate::unknown::{Unknown, letter_bit};
@@ -45,10 +47,7 @@ pub(crate) struct Reader {
     blocks: u64,
     ended: bool,
     jumps: u64,
-    /// The state at an earlier jump of the main program, and how many jumps until it is taken anew.
-    seen: Option<(Cursor, State)>,
-    seen_for: u64,
-    seen_until: u64,
+    repetition: Repetition,
 }
 
 impl Reader {
@@ -68,9 +67,7 @@ impl Reader {
             blocks: 0,
             ended: true,
             jumps: 0,
-            seen: None,
-            seen_for: 0,
-            seen_until: 1,
+            repetition: Repetition::default(),
         }
     }
 
@@ -94,9 +91,7 @@ impl Reader {
         self.blocks = 0;
         self.ended = false;
         self.jumps = 0;
-        self.seen = None;
-        self.seen_for = 0;
-        self.seen_until = 1;
+        self.repetition = Repetition::default();
     }
 
     /// Goes on at the block after a command, with nothing called.
@@ -213,14 +208,17 @@ impl Reader {
             _ => 0,
         };
         let start = self.block.start;
-        self.prepare(command, Place {
-            program,
-            source: frame.source,
-            line: start.line,
-            line_start: start.line_start,
-            block: self.block.span(),
-            sequence,
-        });
+        self.prepare(
+            command,
+            Place {
+                program,
+                source: frame.source,
+                line: start.line,
+                line_start: start.line_start,
+                block: self.block.span(),
+                sequence,
+            },
+        );
         self.next = self.state;
         match read_meaning(&self.setting, &self.calls, &self.state, &mut self.next, &self.block, command) {
             Ok(flow) => {
@@ -292,7 +290,7 @@ impl Reader {
             Flow::Call(found, repeats) => self.enter(found, repeats),
             Flow::Return(found) => self.leave(found),
             Flow::Again => self.run_again(command),
-            Flow::Jump(found) if self.comes_again(found.cursor) => self.run_again(command),
+            Flow::Jump(found) if self.repetition.comes_again(found.cursor, &self.next) => self.run_again(command),
             Flow::Jump(found) => self.advance(found.cursor),
         }
         Ok(())
@@ -325,22 +323,6 @@ impl Reader {
             main.cursor = main.head;
             main.begun = false;
         }
-    }
-
-    /// True if the main program jumps to the same block in the same state as once before: it would go on for ever.
-    ///
-    /// The earlier state is kept for 1, 2, 4, 8 … jumps (Brent's cycle search), so one state is enough.
-    fn comes_again(&mut self, cursor: Cursor) -> bool {
-        if self.seen.as_ref().is_some_and(|(place, state)| *place == cursor && *state == self.next) {
-            return true;
-        }
-        self.seen_for += 1;
-        if self.seen_for >= self.seen_until {
-            self.seen = Some((cursor, self.next));
-            self.seen_for = 0;
-            self.seen_until *= 2;
-        }
-        false
     }
 
     /// The block is refused: it has no effect. Checking on, what it names becomes unknown.
@@ -403,14 +385,17 @@ impl Reader {
 
     fn end_of_text(&mut self, frame: &Frame, command: &mut Command) -> Read {
         let Cursor { offset, line, line_start, .. } = frame.cursor;
-        self.prepare(command, Place {
-            program: frame.program,
-            source: frame.source,
-            line,
-            line_start,
-            block: Span { start: offset, len: 0 },
-            sequence: 0,
-        });
+        self.prepare(
+            command,
+            Place {
+                program: frame.program,
+                source: frame.source,
+                line,
+                line_start,
+                block: Span { start: offset, len: 0 },
+                sequence: 0,
+            },
+        );
         command.finish = Finish::End(EndKind::Text);
         command.after = self.state;
         command.side = Side::Off;

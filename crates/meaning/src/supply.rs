@@ -66,9 +66,10 @@ impl Supply {
     pub fn fill(&mut self, source: SourceId, offset: u64, bytes: &[u8], last: bool) {
         self.clock += 1;
         // A window that this one continues is read through; otherwise the one that was not used for longest goes.
-        let continued = self.windows.iter().position(|w| {
-            w.source == source && offset >= w.start && offset <= w.start + w.bytes.len() as u64
-        });
+        let continued = self
+            .windows
+            .iter()
+            .position(|w| w.source == source && offset >= w.start && offset <= w.start + w.bytes.len() as u64);
         let slot = match continued {
             Some(slot) => slot,
             None if self.windows.len() < WINDOWS => {

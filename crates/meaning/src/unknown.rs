@@ -56,7 +56,8 @@ impl Unknown {
             Condition::PositionOffsetInCompensation => self.group(roles.compensation),
             Condition::ValueOutOfRange => self.group(roles.units),
             Condition::TravelExceeded => {
-                axis.is_some_and(|axis| self.axes.has(usize::from(axis))) || any(&[roles.cycle, roles.work, roles.distance])
+                axis.is_some_and(|axis| self.axes.has(usize::from(axis)))
+                    || any(&[roles.cycle, roles.work, roles.distance])
             }
             _ => false,
         }

@@ -113,7 +113,8 @@ impl<'b> Words<'b> {
 
     /// A word as a length in nanometres.
     pub fn length(&self, control: &Control, letter: u8, units: UnitSystem) -> Result<Option<f64>, Alarm> {
-        self.read(control, letter, |address, number| control.length(address, number, units)).map(|n| n.map(|n| n as f64))
+        self.read(control, letter, |address, number| control.length(address, number, units))
+            .map(|n| n.map(|n| n as f64))
     }
 
     /// A word as an angle in microdegrees.

@@ -50,7 +50,8 @@ mod tests {
     #[test]
     fn no_profile_is_faster_than_its_limits() {
         for step in 1..2000 {
-            let (distance, speed, acceleration) = (f64::from(step) * 0.05, f64::from(step % 37 + 1), f64::from(step % 11 + 1) * 90.0);
+            let (distance, speed, acceleration) =
+                (f64::from(step) * 0.05, f64::from(step % 37 + 1), f64::from(step % 11 + 1) * 90.0);
             let move_ = Trapezoid::new(distance, speed, acceleration);
             let ramp = move_.top * move_.top / acceleration;
             assert!(move_.top <= speed && ramp <= distance * (1.0 + 1e-12));

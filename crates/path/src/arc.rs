@@ -107,7 +107,8 @@ impl Arc {
     fn turning_points(&self) -> impl Iterator<Item = f64> {
         let quarter = TAU / 4.0;
         let direction = self.sweep.signum();
-        let first = if direction > 0.0 { (self.start_angle / quarter).ceil() } else { (self.start_angle / quarter).floor() };
+        let first =
+            if direction > 0.0 { (self.start_angle / quarter).ceil() } else { (self.start_angle / quarter).floor() };
         (0..5).filter_map(move |step| {
             let quadrant = (first + direction * f64::from(step)) * quarter;
             let mut s = (quadrant - self.start_angle) / self.sweep;

@@ -104,7 +104,10 @@ fn options_and_policies(control: &Control, out: &mut String) {
         let _ = writeln!(out, "{:<24} {fitted}  {}  {}", option.name, option.origin.certainty.0, option.text);
     }
     out.push('\n');
-    heading(out, "Policies, where the maker's text is silent   (--policy NAME=VALUE; the first in brackets is the default)");
+    heading(
+        out,
+        "Policies, where the maker's text is silent   (--policy NAME=VALUE; the first in brackets is the default)",
+    );
     for policy in &control.policies {
         let default = policy.values.get(policy.default).map_or("", String::as_str);
         let others: Vec<_> = policy.values.iter().filter(|value| *value != default).map(String::as_str).collect();
@@ -126,7 +129,11 @@ fn options_and_policies(control: &Control, out: &mut String) {
 fn parameters(control: &Control, out: &mut String) {
     heading(out, "Parameters   (--parameter NAME=VALUE)");
     for parameter in &control.parameters {
-        let _ = writeln!(out, "{:<24} {:<6} {}  {}", parameter.name, parameter.default, parameter.origin.certainty.0, parameter.text);
+        let _ = writeln!(
+            out,
+            "{:<24} {:<6} {}  {}",
+            parameter.name, parameter.default, parameter.origin.certainty.0, parameter.text
+        );
         for bit in &parameter.bits {
             let _ = writeln!(out, "{:20} D{}           {}  {}", "", bit.bit, bit.origin.certainty.0, bit.text);
         }

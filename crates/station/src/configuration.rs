@@ -7,8 +7,8 @@ use dialect::{Control, Fitting, Meaning};
 use machine::MachineFile;
 use meaning::{Memory, OffsetTable};
 
-use crate::session::SessionSwitches;
 use crate::setup::{OffsetColumn, Setup};
+use crate::switches::SessionSwitches;
 
 /// A set-up that this control or machine refuses.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -77,7 +77,11 @@ impl Configuration {
     ///
     /// # Errors
     /// The first thing that this control or machine does not have, or that excludes another.
-    pub fn new(control: Arc<Control>, machine: MachineFile, setups: &[&Setup]) -> Result<Configuration, ConfigurationError> {
+    pub fn new(
+        control: Arc<Control>,
+        machine: MachineFile,
+        setups: &[&Setup],
+    ) -> Result<Configuration, ConfigurationError> {
         let fitting = Fitting::stock(&control);
         let lengths = OffsetTable::new(control.highest_offset);
         let radii = (!control.common_offsets).then(|| OffsetTable::new(control.highest_offset));
@@ -175,7 +179,9 @@ impl Configuration {
             (OffsetColumn::Common, None) | (OffsetColumn::Length, Some(_)) => &mut self.memory.lengths,
             (OffsetColumn::Radius, Some(radii)) => radii,
             (OffsetColumn::Common, Some(_)) => {
-                return Err(wrong(format!("the {title} keeps lengths and radii apart: write H{number}= or D{number}=")));
+                return Err(wrong(format!(
+                    "the {title} keeps lengths and radii apart: write H{number}= or D{number}="
+                )));
             }
             (_, None) => return Err(wrong(format!("the {title} has one common memory: write it under [offsets]"))),
         };

@@ -9,10 +9,12 @@ mod operator;
 mod script;
 mod session;
 mod setup;
+mod switches;
 
 pub use configuration::{Configuration, ConfigurationError, Inputs};
 pub use library::{Library, LibraryError};
 pub use operator::{Operator, Said, Shown};
 pub use script::{Action, ScriptError, Show, Until, read_script, split_switch};
-pub use session::{AfterAlarm, Session, SessionSwitches, Step};
+pub use session::{AfterAlarm, Session, Step};
 pub use setup::{OffsetColumn, Setup, read_setup};
+pub use switches::SessionSwitches;

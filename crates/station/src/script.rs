@@ -62,8 +62,22 @@ pub struct ScriptError {
 
 /// Actions of the vocabulary that wait for their time.
 const NOT_BUILT: &[&str] = &[
-    "power-on", "power-off", "mode", "mdi", "feed-hold", "emergency-stop", "release", "key", "override", "offset", "work",
-    "parameter", "variable", "jog", "step", "home",
+    "power-on",
+    "power-off",
+    "mode",
+    "mdi",
+    "feed-hold",
+    "emergency-stop",
+    "release",
+    "key",
+    "override",
+    "offset",
+    "work",
+    "parameter",
+    "variable",
+    "jog",
+    "step",
+    "home",
 ];
 
 /// Reads a script: each action with its line.
@@ -144,7 +158,8 @@ mod tests {
 
     #[test]
     fn every_line_is_an_action_a_comment_or_an_error() {
-        let script = "load a.nc as O1  # the part\n\n# nothing\nswitch block-delete=2 on\nrun until line 7\njog X + for 2\n";
+        let script =
+            "load a.nc as O1  # the part\n\n# nothing\nswitch block-delete=2 on\nrun until line 7\njog X + for 2\n";
         assert_eq!(
             read_script(script),
             Ok(vec![

@@ -11,41 +11,7 @@ use path::{Path, Shape};
 
 use crate::configuration::{Configuration, Inputs};
 use crate::library::{Library, LibraryError};
-
-/// The operator's switches.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct SessionSwitches {
-    /// M01 stops.
-    pub optional_stop: bool,
-    /// A stop after every block.
-    pub single_block: bool,
-    /// Block delete 1 to 9, bit 0 for the first.
-    pub block_delete: u16,
-}
-
-impl SessionSwitches {
-    /// Turns a switch by its name.
-    ///
-    /// # Errors
-    /// Why not, in words.
-    pub fn set(&mut self, name: &str, number: Option<u8>, on: bool) -> Result<(), String> {
-        match name {
-            "optional-stop" => self.optional_stop = on,
-            "single-block" => self.single_block = on,
-            "block-delete" => {
-                let bit = 1 << (number.unwrap_or(1).clamp(1, 9) - 1);
-                self.block_delete = if on { self.block_delete | bit } else { self.block_delete & !bit };
-            }
-            "dry-run" | "machine-lock" | "display-lock" | "aux-lock" | "z-cancel" | "manual-absolute" => {
-                return Err(format!("the switch `{name}` is not built yet"));
-            }
-            _ => {
-                return Err(format!("there is no switch `{name}`; built are optional-stop, block-delete[=n], single-block"));
-            }
-        }
-        Ok(())
-    }
-}
+use crate::switches::SessionSwitches;
 
 /// What follows an alarm.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -98,9 +64,9 @@ pub struct Session<L> {
 impl<L: Library> Session<L> {
     /// A control at power-on.
     pub fn new(configuration: Configuration, library: L) -> Session<L> {
-        let Configuration { control, fitting, machine, memory, base_origin, start, switches, inputs } = configuration.clone();
-        let interpreter =
-            Interpreter::new(control, fitting.clone(), machine.facts(), memory, &start, base_origin);
+        let Configuration { control, fitting, machine, memory, base_origin, start, switches, inputs } =
+            configuration.clone();
+        let interpreter = Interpreter::new(control, fitting.clone(), machine.facts(), memory, &start, base_origin);
         let virtual_machine = VirtualMachine::new(&machine, start, fitting.policies.stroke_check);
         let motion = Motion::new(Path::new(interpreter, start), machine.limits());
         let mut session = Session {
@@ -274,6 +240,7 @@ impl<L: Library> Session<L> {
     }
 
     /// The next thing that happens.
+    #[expect(clippy::should_implement_trait, reason = "it never ends for good: an operator can start again")]
     pub fn next(&mut self) -> Step {
         loop {
             if let Some(event) = self.events.pop_front() {

@@ -45,13 +45,16 @@ pub fn read_setup(file: &str, text: &str) -> Result<Setup, Vec<DataError>> {
         for (key, column) in
             [("offsets", OffsetColumn::Common), ("lengths", OffsetColumn::Length), ("radii", OffsetColumn::Radius)]
         {
-            let found = root.table(key, |t| t.rest().iter().filter_map(|entry| offset(entry, column)).collect::<Vec<_>>());
+            let found =
+                root.table(key, |t| t.rest().iter().filter_map(|entry| offset(entry, column)).collect::<Vec<_>>());
             setup.offsets.extend(found.unwrap_or_default());
         }
         let work = root.table("work", |t| t.rest().into_iter().flat_map(work_system).collect());
         setup.work = work.unwrap_or_default();
-        setup.parameters = root.table("parameters", |t| t.rest().iter().filter_map(parameter).collect()).unwrap_or_default();
-        setup.switches = root.table("switches", |t| t.rest().into_iter().flat_map(switches).collect()).unwrap_or_default();
+        setup.parameters =
+            root.table("parameters", |t| t.rest().iter().filter_map(parameter).collect()).unwrap_or_default();
+        setup.switches =
+            root.table("switches", |t| t.rest().into_iter().flat_map(switches).collect()).unwrap_or_default();
         setup.inputs = root.table("inputs", truths).unwrap_or_default();
         setup.options = root.table("options", truths).unwrap_or_default();
         setup.policies = root

@@ -93,10 +93,7 @@ mod tests {
 
     #[test]
     fn digits_point_and_sign_are_kept_as_written() {
-        assert_eq!(
-            number("-012.50"),
-            Decimal { mantissa: 1250, decimals: 2, digits: 3, point: true, negative: true }
-        );
+        assert_eq!(number("-012.50"), Decimal { mantissa: 1250, decimals: 2, digits: 3, point: true, negative: true });
         assert_eq!(number("+.5"), Decimal { mantissa: 5, decimals: 1, digits: 0, point: true, negative: false });
         assert_eq!(number("-0"), Decimal { mantissa: 0, decimals: 0, digits: 1, point: false, negative: true });
         assert_eq!(number("1 0 . 5"), number("10.5"));

@@ -5,7 +5,8 @@ use crate::number::is_blank;
 
 /// The statement that begins at the head of `text`, if one does; blanks inside the word have no meaning.
 pub(crate) fn statement_at(text: &[u8], fold: bool) -> Option<StatementKind> {
-    let mut letters = text.iter().copied().filter(|&b| !is_blank(b)).map(|b| if fold { b.to_ascii_uppercase() } else { b });
+    let mut letters =
+        text.iter().copied().filter(|&b| !is_blank(b)).map(|b| if fold { b.to_ascii_uppercase() } else { b });
     let mut word = [0u8; 5];
     for slot in &mut word {
         *slot = letters.next().unwrap_or(0);

@@ -70,7 +70,9 @@ fn files(names: &[String]) -> Result<Vec<String>, Failure> {
             let before = files.len();
             programs_in(path, &mut files)?;
             if files.len() == before {
-                return Err(Failure::call(format!("{name}: the folder holds no programs (.nc .cnc .tap .eia .txt, O1234)")));
+                return Err(Failure::call(format!(
+                    "{name}: the folder holds no programs (.nc .cnc .tap .eia .txt, O1234)"
+                )));
             }
         } else {
             let matches = glob::glob(name).map_err(|e| Failure::call(format!("{name}: {e}")))?;

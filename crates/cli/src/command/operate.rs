@@ -27,7 +27,8 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     } else {
         fs::read_to_string(name).map_err(cannot)?
     };
-    let script = read_script(&text).map_err(|error| Failure::call(format!("{name}:{}: {}", error.line, error.message)))?;
+    let script =
+        read_script(&text).map_err(|error| Failure::call(format!("{name}:{}: {}", error.line, error.message)))?;
     let configuration = setting::configuration(&arguments.setting)?;
     let control = configuration.control.clone();
     let machine = configuration.machine.clone();
@@ -42,8 +43,8 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     let mut failed = None;
     for (line, action) in &script {
         if let Action::Load(file, program) = action {
-            let (source, program) = load(&mut operator, name, file, program.as_deref())
-                .map_err(|failure| at_line(name, *line, failure))?;
+            let (source, program) =
+                load(&mut operator, name, file, program.as_deref()).map_err(|failure| at_line(name, *line, failure))?;
             loaded.insert(program.clone(), (source, program));
         }
         let find = |_: &mut Texts, program: &str| loaded.get(&normal_name(program)).cloned();

@@ -28,7 +28,8 @@ fn rule(row: &mut Table, code: &'static str, parameter: &'static str) -> RuleDra
             let number = t.integer("number").map(|n| n.to_string());
             let bits = t.integers("bits").unwrap_or_default();
             let codes = t.strings("codes").unwrap_or_default();
-            if bits.is_empty() || bits.iter().any(|bit| !(0..8).contains(bit)) || codes.len() != 1 << bits.len().min(8) {
+            if bits.is_empty() || bits.iter().any(|bit| !(0..8).contains(bit)) || codes.len() != 1 << bits.len().min(8)
+            {
                 t.error_here("bits are numbers 0 to 7, and codes has one entry for each of their values");
             }
             (number.or_else(|| t.string("name")).unwrap_or_default(), bits.iter().map(|&b| b as u8).collect(), codes)

@@ -42,7 +42,8 @@ pub(super) fn parameters(root: &mut Table) -> Vec<ParameterRow> {
             row.error_here("a parameter has a `number` or a `name`");
         }
         row.require("kind");
-        let kinds = [("bits", ParameterKind::Bits), ("length", ParameterKind::Length), ("number", ParameterKind::Number)];
+        let kinds =
+            [("bits", ParameterKind::Bits), ("length", ParameterKind::Length), ("number", ParameterKind::Number)];
         ParameterRow {
             name: number.or(name).unwrap_or_default(),
             kind: row.choice("kind", &kinds).unwrap_or(ParameterKind::Number),

@@ -42,4 +42,3 @@ pub(super) fn step(holes: &Holes, at: &mut Cursor) -> Step {
         _ => Step::Done,
     }
 }
-

@@ -1,0 +1,45 @@
+//! What holds while programs run: the control as fitted, the machine, memory and switches.
+
+use std::sync::Arc;
+
+use base::{AXES, Point};
+use dialect::{Control, Fitting};
+
+use crate::facts::{MachineFacts, Memory, Switches};
+
+/// What holds while programs run.
+pub(crate) struct Setting {
+    pub control: Arc<Control>,
+    pub fitting: Fitting,
+    pub facts: MachineFacts,
+    pub memory: Memory,
+    pub switches: Switches,
+    /// The axis on which the length offset acts.
+    pub length_axis: Option<usize>,
+    /// The letters of all axes, one bit each.
+    pub axis_letters: u32,
+    /// The letters of codes that go out.
+    pub code_letters: u32,
+}
+
+impl Setting {
+    /// Counts to mm and degrees.
+    pub fn to_mm(&self, counts: &Point) -> Point {
+        to_mm(counts, self.facts.axes.len())
+    }
+
+    /// #6005 D5: G92 presets the UNIVERSAL display.
+    pub fn presets_universal(&self) -> bool {
+        let bits = self.fitting.parameter_by_name(&self.control, "6005").unwrap_or(0.0) as u8;
+        bits & (1 << 5) != 0
+    }
+}
+
+/// Counts to mm and degrees on the first `axes` axes.
+pub(crate) fn to_mm(counts: &Point, axes: usize) -> Point {
+    let mut mm = [0.0; AXES];
+    for axis in 0..axes.min(AXES) {
+        mm[axis] = counts[axis] / 1e6;
+    }
+    mm
+}
