@@ -4,7 +4,7 @@
 //! the movement · 5 what ends the block. A refused block leaves everything as it was: the work is done on copies.
 
 use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
-use dialect::{InchFeedInteger, Meaning};
+use dialect::{Control, InchFeedInteger, Meaning};
 use syntax::Block;
 
 use crate::command::Command;
@@ -155,6 +155,13 @@ fn check_skips(setting: &Setting, words: &Words, block: &Block) -> Result<(), Al
     }
 }
 
+impl<'r> Reading<'r> {
+    /// The control's tables.
+    pub fn control(&self) -> &'r Control {
+        &self.setting.control
+    }
+}
+
 impl Reading<'_> {
     /// Refuses letters that mean nothing on this control and machine, and variables.
     fn check_letters(&mut self) -> Result<(), Alarm> {
@@ -190,12 +197,12 @@ impl Reading<'_> {
     /// F, H, D; of O and N only the range matters here.
     fn take_values(&mut self) -> Result<(), Alarm> {
         for letter in [b'O', b'N'] {
-            self.words.integer(&self.setting.control, letter)?;
+            self.words.integer(self.control(), letter)?;
         }
         if !self.words.has_any(letter_bit(b'F') | letter_bit(b'H') | letter_bit(b'D')) {
             return Ok(());
         }
-        let control = self.setting.control.clone();
+        let control = self.control();
         if let (Some(number), Some(address)) = (self.words.number(b'F')?, control.address(b'F')) {
             let per_revolution =
                 control.in_force(&self.next.groups, control.roles.feed_mode) == Some(Meaning::FeedPerRevolution);
@@ -211,7 +218,7 @@ impl Reading<'_> {
         }
         let highest = control.highest_offset;
         for letter in [b'H', b'D'] {
-            let number = self.words.count(&control, letter)?;
+            let number = self.words.count(control, letter)?;
             let Some(number) = number else { continue };
             if number > highest {
                 let values = [f64::from(number), f64::from(highest), 0.0];
@@ -226,7 +233,7 @@ impl Reading<'_> {
     fn act(&mut self) -> Result<(), Alarm> {
         self.refuse_unbuilt_modes()?;
         self.length_change = self.change_length_offset()?;
-        let control = self.setting.control.clone();
+        let control = self.control();
         let roles = control.roles;
         let motion = control.in_force(&self.next.groups, roles.motion).unwrap_or(Meaning::Rapid);
         self.enter_cycle()?;

@@ -17,13 +17,13 @@ impl Reading<'_> {
         if !self.words.has_any(self.setting.code_letters) {
             return Ok(Flow::Next);
         }
-        let control = self.setting.control.clone();
+        let control = self.control();
         let digits = self.setting.facts.codes.digits;
-        if let Some(speed) = self.words.count(&control, b'S')? {
+        if let Some(speed) = self.words.count(control, b'S')? {
             self.next.spindle = speed;
             self.send(CodeLine::S, b'S', speed, digits[1], false)?;
         }
-        if let Some(tool) = self.words.count(&control, b'T')? {
+        if let Some(tool) = self.words.count(control, b'T')? {
             self.next.tool = tool;
             self.send(CodeLine::T, b'T', tool, digits[2], false)?;
         }
@@ -31,7 +31,7 @@ impl Reading<'_> {
             if !self.setting.fitting.options.b_function {
                 return Err(self.words.alarm(Condition::AddressUnavailable, b'B').into());
             }
-            if let Some(index) = self.words.count(&control, b'B')? {
+            if let Some(index) = self.words.count(control, b'B')? {
                 self.next.index = index;
                 self.send(CodeLine::B, b'B', index, digits[3], self.setting.facts.codes.b_after_motion)?;
             }
@@ -40,7 +40,7 @@ impl Reading<'_> {
     }
 
     fn take_m_codes(&mut self, digits: u8) -> Result<Flow, Refusal> {
-        let control = self.setting.control.clone();
+        let control = self.control();
         let mut flow = Flow::Next;
         let mut taken = 0;
         for word in self.words.block.words.iter().take(self.word_count).filter(|word| word.letter == b'M') {

@@ -76,7 +76,7 @@ impl Reading<'_> {
     /// Sets the base system and selects it (policy `g92-system = base`), or shifts all systems alike (`all`). With
     /// #6005 D5 the UNIVERSAL display is preset too.
     pub fn set_coordinates(&mut self) -> Result<(), Alarm> {
-        let control = self.setting.control.clone();
+        let control = self.control();
         let all_systems = self.setting.fitting.policies.g92_system == dialect::G92System::All;
         let axes = self.axes_named()?;
         if axes.is_empty() {

@@ -9,10 +9,10 @@ use crate::operation::Dwell;
 impl Reading<'_> {
     /// G04: P in milliseconds without a point, seconds with one; X likewise where that is fitted.
     pub fn dwell(&mut self) -> Result<(), Alarm> {
-        let control = self.setting.control.clone();
+        let control = self.control();
         let letter = if self.words.has(b'P') || !self.setting.fitting.options.dwell_x { b'P' } else { b'X' };
         let seconds = match letter {
-            b'P' => self.words.seconds(&control, b'P')?,
+            b'P' => self.words.seconds(control, b'P')?,
             _ => match (self.words.number(b'X')?, control.address(b'P')) {
                 (Some(number), Some(address)) => Some(
                     control

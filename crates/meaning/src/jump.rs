@@ -72,14 +72,14 @@ impl Calls {
 impl Reading<'_> {
     /// M98: the program P, L times.
     pub fn call(&mut self, word: &Word) -> Result<Flow, Refusal> {
-        let control = self.setting.control.clone();
+        let control = self.control();
         if self.words.has(b'Q') {
             return Err(self.words.alarm(Condition::NotYetBuilt, b'Q').into());
         }
-        let Some(number) = self.words.count(&control, b'P')?.filter(|&number| number > 0) else {
+        let Some(number) = self.words.count(control, b'P')?.filter(|&number| number > 0) else {
             return Err(self.words.alarm_at(Condition::CallTargetMissing, word).into());
         };
-        let repeats = self.words.count(&control, b'L')?.unwrap_or(1);
+        let repeats = self.words.count(control, b'L')?.unwrap_or(1);
         if repeats == 0 {
             return Err(self.words.alarm(Condition::ValueOutOfRange, b'L').with([0.0, 1.0, 9999.0]).into());
         }
@@ -100,9 +100,9 @@ impl Reading<'_> {
 
     /// M99: back to the caller, after the call or at its block P; in the main program to its head or its block P.
     pub fn subprogram_end(&mut self) -> Result<Flow, Refusal> {
-        let control = self.setting.control.clone();
+        let control = self.control();
         let levels = self.calls.frames.len();
-        let number = self.words.count(&control, b'P')?;
+        let number = self.words.count(control, b'P')?;
         let goal = self.calls.frames.get(levels.saturating_sub(2).min(levels.saturating_sub(1)));
         let (Some(number), Some(goal)) = (number, goal) else {
             return Ok(if levels > 1 { Flow::Return(None) } else { Flow::Again });

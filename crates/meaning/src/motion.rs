@@ -182,8 +182,8 @@ impl Reading<'_> {
         let [Some(u), Some(v)] = axes else { return Err(self.motion_alarm(Condition::AddressUnavailable)) };
         let (to, moved) = self.targets()?;
         let units = self.units;
-        let control = self.setting.control.clone();
-        let radius = self.words.length(&control, b'R', units)?;
+        let control = self.control();
+        let radius = self.words.length(control, b'R', units)?;
         let straight = self.setting.fitting.policies.arc_without_centre == ArcWithoutCentre::StraightLine;
         if !has_center && radius.is_none() && straight {
             self.command.body = Body::Line { to, feed: self.feed()? };
@@ -258,7 +258,7 @@ impl Reading<'_> {
 
     /// A centre word in counts, lengthened by G45 to G48 as the axis of its name would be.
     fn centre_word(&self, letter: u8) -> Result<f64, Alarm> {
-        let Some(value) = self.words.length(&self.setting.control, letter, self.units)? else { return Ok(0.0) };
+        let Some(value) = self.words.length(self.control(), letter, self.units)? else { return Ok(0.0) };
         let minus = self.words.number(letter)?.is_some_and(|number| number.negative);
         Ok(value + self.position_offset.map_or(0.0, |offset| offset.change(value, minus)))
     }

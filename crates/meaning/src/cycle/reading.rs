@@ -22,7 +22,7 @@ impl Reading<'_> {
 
     /// Takes the initial level when the cycle mode is entered, and forgets the data when it is left.
     pub fn enter_cycle(&mut self) -> Result<(), Alarm> {
-        let control = self.setting.control.clone();
+        let control = self.control();
         let roles = control.roles;
         let is_on = |row: u8| control.g_codes.get(usize::from(row)).is_some_and(|code| code.meaning.is_cycle());
         let before = is_on(self.before.groups.0[roles.cycle]);
@@ -41,15 +41,15 @@ impl Reading<'_> {
 
     /// A block while a cycle is in force: it stores data, and drills if it names a place.
     pub fn cycle_block(&mut self, cycle: Meaning) -> Result<(), Alarm> {
-        let control = self.setting.control.clone();
+        let control = self.control();
         let (units, absolute) = (self.units, self.absolute);
-        store(&self.words, &control, units, absolute, &mut self.next.cycle)?;
+        store(&self.words, control, units, absolute, &mut self.next.cycle)?;
         let levels = letter_bit(b'R') | letter_bit(b'Z');
         if !self.words.has_any(self.setting.axis_letters | levels) {
             return Ok(());
         }
         let drilling = self.drilling_axis()?;
-        let count = self.words.count(&control, b'L')?.unwrap_or(1);
+        let count = self.words.count(control, b'L')?.unwrap_or(1);
         if count == 0 && self.setting.fitting.policies.cycle_l0_moves == CycleL0Moves::No {
             return Ok(());
         }
@@ -69,18 +69,18 @@ impl Reading<'_> {
     /// G70 and G72: holes on a circle or a line, made with the cycle in force or only gone to.
     pub fn pattern(&mut self, code: Meaning, cycle: Option<Meaning>) -> Result<(), Alarm> {
         self.refuse_unbuilt_cycle(cycle)?;
-        let control = self.setting.control.clone();
+        let control = self.control();
         let [Some(x), Some(y)] = [b'X', b'Y'].map(|letter| self.setting.facts.axis(letter)) else {
             return Err(self.one_shot_alarm(Condition::AddressUnavailable));
         };
         if cycle.is_some() {
             let (units, absolute) = (self.units, self.absolute);
             // Here I and J belong to the pattern; R, Z, Q and P may still renew the cycle's data.
-            store(&self.words, &control, units, absolute, &mut self.next.cycle)?;
+            store(&self.words, control, units, absolute, &mut self.next.cycle)?;
         }
-        let count = self.words.integer(&control, b'L')?.unwrap_or(0);
-        let size = self.words.length(&control, b'I', self.units)?.unwrap_or(0.0);
-        let angle = self.words.angle(&control, b'J')?.unwrap_or(0.0) / 1e6;
+        let count = self.words.integer(control, b'L')?.unwrap_or(0);
+        let size = self.words.length(control, b'I', self.units)?.unwrap_or(0.0);
+        let angle = self.words.angle(control, b'J')?.unwrap_or(0.0) / 1e6;
         let (mut level, mut named) = (self.next.machine, self.axes_named()?);
         if let Some(drilling) = self.setting.facts.axis(b'Z') {
             named = named.without(base::AxisSet::only(drilling));
