@@ -95,6 +95,9 @@ conditions! {
     /// The code is known and correct, but this program does not execute it yet.
     NotYetBuilt = "not-yet-built",
 
+    /// A third axis moves in an arc block without the option for helices.
+    HelixNotFitted = "helix-not-fitted",
+
     // Feed, arcs, offsets.
     /// A cutting move and no feed.
     FeedMissing = "feed-missing",

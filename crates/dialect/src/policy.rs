@@ -118,6 +118,13 @@ policies! {
         /// At the border.
         AtBorder = "at-border",
     }
+    /// What G20 and G21 do with stored offsets.
+    unit_change_offsets: UnitChangeOffsets = "unit-change-offsets" {
+        /// They keep their length.
+        Convert = "convert",
+        /// They keep their digits: a count of least increments.
+        Keep = "keep",
+    }
     /// Where RESET leaves the program.
     reset_pointer: ResetPointer = "reset-pointer" {
         /// At the block after the one being executed.

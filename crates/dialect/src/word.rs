@@ -48,7 +48,7 @@ impl Control {
     /// # Errors
     /// A point that may not be, too many digits, a value outside the range.
     pub fn integer(&self, address: &Address, number: Decimal) -> Result<i64, Refused> {
-        if number.point && address.point == PointRule::No {
+        if number.point && address.point != PointRule::Yes {
             return Err((Condition::PointNotAllowed, [0.0; 3]));
         }
         if address.kind == AddressKind::Code && number.digits > address.digits {

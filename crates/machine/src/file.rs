@@ -280,7 +280,7 @@ struct Functions {
 }
 
 fn default_functions(root: &Table, axes: &[MachineAxis]) -> Functions {
-    check_b(root, axes, false);
+    check_b(root, root.range(), axes, false);
     Functions { codes: code_rules(), times: CodeTimes { single: default_times(), other: Seconds(0.05) }, b_axis: false }
 }
 
@@ -292,19 +292,20 @@ fn default_times() -> Vec<(CodeLine, Option<u32>, Seconds)> {
     vec![(CodeLine::M, Some(6), Seconds(4.0)), (CodeLine::B, None, Seconds(1.5))]
 }
 
-fn check_b(table: &Table, axes: &[MachineAxis], b_axis: bool) {
+fn check_b(table: &Table, place: std::ops::Range<usize>, axes: &[MachineAxis], b_axis: bool) {
     let has_b = axes.iter().any(|axis| axis.letter == b'B');
     if has_b && !b_axis {
-        table.error_here("a B axis and the B function exclude each other; with [axes.B] set b_axis = true");
+        table.error(place.clone(), "a B axis and the B function exclude each other; with [axes.B] set b_axis = true");
     }
     if b_axis && !has_b {
-        table.error_here("b_axis = true wants an [axes.B]");
+        table.error(place, "b_axis = true wants an [axes.B]");
     }
 }
 
 fn functions(table: &mut Table, axes: &[MachineAxis]) -> Functions {
+    let place = table.place_of("b_axis").unwrap_or_else(|| table.range());
     let b_axis = table.boolean("b_axis").unwrap_or(false);
-    check_b(table, axes, b_axis);
+    check_b(table, place, axes, b_axis);
     let mut codes = code_rules();
     for (slot, key) in
         codes.digits.iter_mut().zip(["m_output_digits", "s_output_digits", "t_output_digits", "b_output_digits"])

@@ -73,7 +73,7 @@ pub(crate) fn read_meaning(
 ) -> Result<Flow, Refusal> {
     let (word_count, cut) = cut_by_block_delete(block, setting.switches.block_delete);
     let words = Words::new(block, command.place, word_count);
-    check_faults(&words, block, cut)?;
+    check_faults(setting, &words, block, cut)?;
     check_skips(setting, &words, block)?;
     let control = setting.control.as_ref();
     let mut reading = Reading {
@@ -131,11 +131,11 @@ fn cut_by_block_delete(block: &Block, switches: u16) -> (usize, u16) {
 }
 
 /// Refuses what could not be read, as far as it is not skipped.
-fn check_faults(words: &Words, block: &Block, cut: u16) -> Result<(), Alarm> {
+fn check_faults(setting: &Setting, words: &Words, block: &Block, cut: u16) -> Result<(), Alarm> {
     let start = block.start.offset;
     if let Some(fault) = block.faults.iter().find(|f| f.extent.at < cut || f.condition == Condition::BlockTooLong) {
         let alarm = Alarm::new(fault.condition, words.place, fault.extent.span(start));
-        return Err(alarm);
+        return Err(alarm.with([f64::from(setting.control.grammar.block_length), 0.0, 0.0]));
     }
     match block.statement {
         Some(statement) if statement.extent.at < cut => {
@@ -258,7 +258,7 @@ impl Reading<'_> {
             Meaning::SetCoordinates => self.set_coordinates(),
             Meaning::ReferenceReturn => self.reference_return(),
             Meaning::MachineCoordinates => self.machine_coordinates(),
-            Meaning::BoltCircle | Meaning::LinePattern => self.pattern(code, cycle),
+            Meaning::BoltCircle | Meaning::ArcPattern | Meaning::LinePattern => self.pattern(code, cycle),
             _ => Err(self.one_shot_alarm(Condition::NotYetBuilt)),
         }
     }

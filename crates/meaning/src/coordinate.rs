@@ -2,8 +2,8 @@
 //!
 //! `machine = word + origin of the system in force + common shift (+ length offset on the length axis)`.
 
-use base::{AXES, Alarm, AxisSet, Condition};
-use dialect::Meaning;
+use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
+use dialect::{Meaning, UnitChangeOffsets};
 
 use crate::block::Reading;
 use crate::command::Body;
@@ -54,7 +54,7 @@ impl Reading<'_> {
         let value = match factor {
             Some(factor) if factor != 0.0 => {
                 let number = self.next.h;
-                let Some(value) = self.setting.memory.length(number) else {
+                let Some(value) = self.offset(self.setting.memory.length(number)) else {
                     let highest = f64::from(control.highest_offset);
                     return Err(self.words.alarm(Condition::OffsetNumber, b'H').with([
                         f64::from(number),
@@ -69,6 +69,16 @@ impl Reading<'_> {
         let change = value - self.next.length;
         self.next.length = value;
         Ok(change)
+    }
+
+    /// A stored offset as it counts in the unit in force: policy `unit-change-offsets`.
+    pub fn offset(&self, stored: Option<f64>) -> Option<f64> {
+        let keeps_digits = self.setting.fitting.policies.unit_change_offsets == UnitChangeOffsets::Keep;
+        let [metric, inch, _] = self.control().increments;
+        stored.map(|value| match self.units {
+            UnitSystem::Inch if keeps_digits => value / metric as f64 * inch as f64,
+            _ => value,
+        })
     }
 
     /// G92: the present position gets the given coordinates; nothing moves.

@@ -88,6 +88,7 @@ impl Expansion {
         out.place = command.place;
         out.side = command.side;
         out.plane = command.plane;
+        out.from_unknown = command.from_unknown;
         true
     }
 

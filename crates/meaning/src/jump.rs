@@ -85,7 +85,7 @@ impl Reading<'_> {
         }
         if self.calls.frames.len() > self.calls.levels {
             let levels = self.calls.levels as f64;
-            return Err(self.words.alarm(Condition::NestingTooDeep, b'P').with([levels, 0.0, 0.0]).into());
+            return Err(self.words.alarm_at(Condition::NestingTooDeep, word).with([levels, 0.0, 0.0]).into());
         }
         let target = Target::Program { number, from: self.words.place.source };
         match self.calls.lookup(&target) {

@@ -130,9 +130,9 @@ impl Reading<'_> {
             && !self.words.has(b'D')
             && self.words.has(b'H');
         let (letter, value) = if by_h {
-            (b'H', self.setting.memory.length(self.next.h))
+            (b'H', self.offset(self.setting.memory.length(self.next.h)))
         } else {
-            (b'D', self.setting.memory.radius(self.next.d))
+            (b'D', self.offset(self.setting.memory.radius(self.next.d)))
         };
         let Some(offset) = value else {
             return Err(self.words.alarm(Condition::OffsetNumber, letter));
@@ -250,7 +250,7 @@ impl Reading<'_> {
         match others.iter().next() {
             Some(axis) if !self.setting.fitting.options.helical => {
                 let letter = self.setting.facts.axes.get(axis).map_or(0, |facts| facts.letter);
-                Err(self.words.alarm(Condition::AddressUnavailable, letter))
+                Err(self.words.alarm(Condition::HelixNotFitted, letter))
             }
             _ => Ok(()),
         }

@@ -228,6 +228,8 @@ pub struct Operation {
     pub side: Side,
     /// The two axes of the plane in force, while compensation is.
     pub plane: AxisSet,
+    /// Checking on: some axis' place before it is unknown, so it may be a move even where it seems to be none.
+    pub from_unknown: bool,
     /// With the single-block switch on the control stops after it, though the block goes on.
     pub stop_point: bool,
 }
@@ -241,6 +243,7 @@ impl Default for Operation {
             act: Act::Close(Close::Next),
             side: Side::Off,
             plane: AxisSet::NONE,
+            from_unknown: false,
             stop_point: false,
         }
     }

@@ -76,7 +76,7 @@ impl Reader {
         let program = self.names.intern(name);
         let head = Cursor::HEAD;
         self.calls.frames.clear();
-        self.calls.frames.push(Frame { program, source, head, cursor: head, begun: false, repeats: 0 });
+        self.calls.frames.push(Frame { program, source, head, cursor: head, begun: false, opened: false, repeats: 0 });
         self.rewind();
     }
 
@@ -86,6 +86,7 @@ impl Reader {
         if let Some(main) = self.calls.frames.first_mut() {
             main.cursor = main.head;
             main.begun = false;
+            main.opened = false;
         }
         self.search = None;
         self.blocks = 0;
@@ -144,11 +145,14 @@ impl Reader {
                 Outcome::End => return self.end_of_text(&frame, command),
                 Outcome::Block => {}
             }
-            if self.block.rewind && frame.begun {
+            if self.block.rewind && (frame.begun || frame.opened) {
                 return self.end_of_text(&frame, command);
             }
             if self.block.rewind || self.block.is_empty() {
-                self.advance(self.block.next);
+                if let Some(frame) = self.calls.frames.last_mut() {
+                    frame.cursor = self.block.next;
+                    frame.opened |= self.block.rewind;
+                }
                 continue;
             }
             if self.begins_program() {
@@ -265,6 +269,7 @@ impl Reader {
         command.finish = Finish::Next;
         command.stops_reading = false;
         command.absolute = AxisSet::NONE;
+        command.from_unknown = !self.state.unknown.axes.is_empty();
     }
 
     fn count(&mut self, command: &Command) {
@@ -282,7 +287,9 @@ impl Reader {
         self.jumps += 1;
         if self.jumps > self.loop_limit {
             let place = command.place;
-            let alarm = Alarm::new(Condition::EndlessLoop, place, place.block);
+            let jump = self.block.words.iter().find(|word| word.letter == b'M');
+            let span = jump.map_or(place.block, |word| word.extent.span(place.block.start));
+            let alarm = Alarm::new(Condition::EndlessLoop, place, span);
             return Err(alarm.with([self.loop_limit as f64, 0.0, 0.0]));
         }
         match flow {
@@ -290,7 +297,10 @@ impl Reader {
             Flow::Call(found, repeats) => self.enter(found, repeats),
             Flow::Return(found) => self.leave(found),
             Flow::Again => self.run_again(command),
-            Flow::Jump(found) if self.repetition.comes_again(found.cursor, &self.next) => self.run_again(command),
+            // A round without a move, dwell or stop is not a program that runs again: the loop limit ends it.
+            Flow::Jump(found) if self.jumps == 1 && self.repetition.comes_again(found.cursor, &self.next) => {
+                self.run_again(command)
+            }
             Flow::Jump(found) => self.advance(found.cursor),
         }
         Ok(())
@@ -298,7 +308,15 @@ impl Reader {
 
     fn enter(&mut self, found: Found, repeats: u32) {
         let Found { source, program, cursor } = found;
-        self.calls.frames.push(Frame { program, source, head: cursor, cursor, begun: false, repeats: repeats - 1 });
+        self.calls.frames.push(Frame {
+            program,
+            source,
+            head: cursor,
+            cursor,
+            begun: false,
+            opened: false,
+            repeats: repeats - 1,
+        });
     }
 
     fn leave(&mut self, found: Option<Found>) {
@@ -307,6 +325,7 @@ impl Reader {
             frame.repeats -= 1;
             frame.cursor = frame.head;
             frame.begun = false;
+            frame.opened = false;
             return;
         }
         self.calls.frames.pop();
@@ -322,6 +341,7 @@ impl Reader {
         if let Some(main) = self.calls.frames.first_mut() {
             main.cursor = main.head;
             main.begun = false;
+            main.opened = false;
         }
     }
 
@@ -427,6 +447,7 @@ pub(crate) fn empty_command(state: &State) -> Command {
         plane: AxisSet::NONE,
         axis_words: [syntax::Extent::default(); AXES],
         absolute: AxisSet::NONE,
+        from_unknown: false,
         frame: Frame::default(),
     }
 }

@@ -175,7 +175,7 @@ fn shape(operation: &Operation, position: &mut Point, compensation: &mut Compens
         Shape::Rapid { .. } | Shape::Line { .. } => differing(&from, &to),
         _ => return true,
     };
-    if moving.is_empty() {
+    if moving.is_empty() && !operation.from_unknown {
         return false;
     }
     match compensation.judge(operation.side, moving, operation.plane, &operation.place) {

@@ -128,7 +128,7 @@ impl Summary {
             EventKind::Dwell(Dwell::Seconds(seconds)) => self.dwell += seconds,
             EventKind::Waited(duration) => self.waiting += duration.0,
             EventKind::End { kind, .. } => self.end = Some(*kind),
-            EventKind::BlockDone if event.place.line > 0 => self.blocks += 1,
+            EventKind::BlockDone if event.place.block.len > 0 => self.blocks += 1,
             _ => {}
         }
         self.cutting += cutting;

@@ -158,12 +158,16 @@ impl Lexer<'_> {
                     }
                 }
                 b'a'..=b'z' => {
-                    if self.grammar.lower_case == LowerCase::Refuse {
-                        self.fault(Condition::LowerCase, self.at, 1);
-                    } else if self.statement() {
+                    let refused = self.grammar.lower_case == LowerCase::Refuse;
+                    if !refused && self.statement() {
                         continue;
                     }
-                    if !self.word(byte.to_ascii_uppercase()) {
+                    let from = self.at;
+                    let whole = self.word(byte.to_ascii_uppercase());
+                    if refused {
+                        self.fault(Condition::LowerCase, from, self.at - from);
+                    }
+                    if !whole {
                         return End::Window;
                     }
                 }

@@ -28,10 +28,12 @@ fn grammar() -> impl Strategy<Value = Grammar> {
 /// Pieces of which programs are made, in any order.
 fn piece() -> impl Strategy<Value = Vec<u8>> {
     let word = ("[A-Z:]", "[-+]?[0-9]{0,6}[.]?[0-9]{0,4}").prop_map(|(letter, number)| format!("{letter}{number}"));
-    let expression = ("[A-Z]", "(-)?#[0-9]{1,3}|\\[[#0-9+*]{0,6}\\]|#\\[#[0-9]\\]|-").prop_map(|(letter, text)| letter + &text);
+    let expression =
+        ("[A-Z]", "(-)?#[0-9]{1,3}|\\[[#0-9+*]{0,6}\\]|#\\[#[0-9]\\]|-").prop_map(|(letter, text)| letter + &text);
     let statement = "#[0-9]{1,3}=[-#0-9+]{1,6}|IF\\[#1EQ[0-9]\\]GOTO ?[0-9]|WHILE\\[#1\\]DO1|END ?1|GOTO9|DO2";
     let sign = prop::sample::select(vec![
-        "\n", "\r\n", "\r", ";", "%", "/", "/2", "/ 9", " ", "\t", "(A)", "(", ")", "\0", "\x7F", ".", "-", "=", "x1", "\u{FEFF}",
+        "\n", "\r\n", "\r", ";", "%", "/", "/2", "/ 9", " ", "\t", "(A)", "(", ")", "\0", "\x7F", ".", "-", "=", "x1",
+        "\u{FEFF}",
     ]);
     prop_oneof![
         6 => word.prop_map(String::into_bytes),
@@ -93,7 +95,13 @@ proptest! {
 /// The reader's promise: a window of 8192 + 2 characters is always enough.
 #[test]
 fn a_window_of_the_promised_size_is_always_enough() {
-    for text in ["(".repeat(30_000), "X1".repeat(15_000), "\0".repeat(30_000), format!("#1={}", "1".repeat(30_000)), "1".repeat(30_000)] {
+    for text in [
+        "(".repeat(30_000),
+        "X1".repeat(15_000),
+        "\0".repeat(30_000),
+        format!("#1={}", "1".repeat(30_000)),
+        "1".repeat(30_000),
+    ] {
         let (text, mut cursor, mut block) = (text.as_bytes(), Cursor::HEAD, Block::default());
         loop {
             let rest = &text[cursor.offset as usize..];

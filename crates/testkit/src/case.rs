@@ -15,10 +15,19 @@ pub enum Waits {
     Macro,
     /// Tool radius compensation.
     Compensation,
+    /// A canned cycle or hole pattern.
+    Cycle,
+    /// Any other function of the control.
+    Function,
 }
 
 impl Waits {
-    const NAMES: &'static [(&'static str, Waits)] = &[("macro", Waits::Macro), ("compensation", Waits::Compensation)];
+    const NAMES: &'static [(&'static str, Waits)] = &[
+        ("macro", Waits::Macro),
+        ("compensation", Waits::Compensation),
+        ("cycle", Waits::Cycle),
+        ("function", Waits::Function),
+    ];
 
     /// The word that the file has for it.
     pub fn name(self) -> &'static str {

@@ -65,7 +65,10 @@ pub fn covers_are_known(control: &Path) -> Result<(), String> {
     for folder in folders(control)? {
         for covered in Case::read(&folder)?.covers {
             if !rules.knows(&covered) {
-                faults.push(format!("{}: `covers` names {covered}, which rules.toml does not describe", file_name(&folder)));
+                faults.push(format!(
+                    "{}: `covers` names {covered}, which rules.toml does not describe",
+                    file_name(&folder)
+                ));
             }
         }
     }

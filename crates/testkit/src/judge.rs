@@ -29,7 +29,8 @@ pub enum Mode {
 /// Everything in which the program and the folder differ, in words.
 pub fn judge(folder: &Path, mode: Mode, program: Program) -> Result<(), String> {
     let case = Case::read(folder)?;
-    let verdict = if case.same_motion { judge_pair(&case, folder, program) } else { judge_one(&case, folder, mode, program) };
+    let verdict =
+        if case.same_motion { judge_pair(&case, folder, program) } else { judge_one(&case, folder, mode, program) };
     verdict.map_err(|message| format!("{}\n{message}", case.why))
 }
 
@@ -42,7 +43,9 @@ fn judge_one(case: &Case, folder: &Path, mode: Mode, program: Program) -> Result
         && !outcome.err.contains(NOT_YET_BUILT)
     {
         let name = waits.name();
-        faults.push(format!("it no longer answers {NOT_YET_BUILT}: take out `waits = \"{name}\"` and write what is right"));
+        faults.push(format!(
+            "it no longer answers {NOT_YET_BUILT}: take out `waits = \"{name}\"` and write what is right"
+        ));
     }
     let expected = Expected { folder, mode };
     let has_err = folder.join("err.txt").exists();

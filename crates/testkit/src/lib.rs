@@ -3,6 +3,8 @@
 //! Comes in: the program to test and the folder of the corpus. Goes out: one test a folder, and the tests of the corpus
 //! as a whole. Must never know: what a control does. What is expected stands in the folders, and only there.
 
+#![allow(clippy::disallowed_methods, clippy::disallowed_types)] // the edge of the house: files and processes
+
 mod case;
 mod coverage;
 mod difference;

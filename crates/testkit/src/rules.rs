@@ -37,7 +37,9 @@ impl Rules {
     /// code, an alarm, a policy.
     pub fn knows(&self, covered: &str) -> bool {
         let numbered = |letter| {
-            covered.strip_prefix(letter).is_some_and(|rest: &str| !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit()))
+            covered
+                .strip_prefix(letter)
+                .is_some_and(|rest: &str| !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit()))
         };
         let is_in = |names: &[String]| names.iter().any(|name| name == covered);
         if numbered('R') {

@@ -1,6 +1,7 @@
 //! The runner itself: what must fail does fail.
 
-#![allow(clippy::disallowed_methods, clippy::disallowed_types)]
+#![allow(clippy::disallowed_methods, clippy::disallowed_types)] // folders to be judged are made here
+#![allow(clippy::expect_used)] // a folder that cannot be made is no verdict
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +9,8 @@ use std::path::Path;
 use tempfile::TempDir;
 use testkit::{Call, Mode, Outcome, alarms_are_covered, covers_are_known, judge, rules_have_folders, trials};
 
-const CASE: &str = "format = 1\nwhy = \"it shows something\"\ncovers = [\"R1\"]\ncertainty = \"S\"\nsource = \"a manual\"\n";
+const CASE: &str =
+    "format = 1\nwhy = \"it shows something\"\ncovers = [\"R1\"]\ncertainty = \"S\"\nsource = \"a manual\"\n";
 
 /// A folder with these files.
 fn folder(files: &[(&str, &str)]) -> TempDir {
@@ -80,7 +82,8 @@ fn the_keys_of_case_toml_are_checked() {
     let message = refusal(&[("case.toml", &unknown), ("out.trace", "a\n")], "a\n", "", 0);
     assert!(message.contains("`exti` is not a known key, perhaps `exit` is meant"), "{message}");
     for missing in ["format", "why", "covers", "certainty", "source"] {
-        let case: String = CASE.lines().filter(|line| !line.starts_with(missing)).map(|line| format!("{line}\n")).collect();
+        let case: String =
+            CASE.lines().filter(|line| !line.starts_with(missing)).map(|line| format!("{line}\n")).collect();
         let message = refusal(&[("case.toml", &case), ("out.trace", "a\n")], "a\n", "", 0);
         assert!(message.contains(missing), "{missing}: {message}");
     }
@@ -142,7 +145,10 @@ fn the_command_line_is_that_of_the_case() {
         message.lines().find_map(|line| line.strip_prefix("+ ")).unwrap_or_default().to_owned()
     };
     assert_eq!(called(""), "trace in.nc <   (no line end)");
-    assert_eq!(called("run = \"check --format json\"\narguments = [\"--repeat\", \"2\"]\n"), "check --format json in.nc --repeat 2 <   (no line end)");
+    assert_eq!(
+        called("run = \"check --format json\"\narguments = [\"--repeat\", \"2\"]\n"),
+        "check --format json in.nc --repeat 2 <   (no line end)"
+    );
     assert_eq!(called("run = \"operate\"\n"), "operate script.txt <   (no line end)");
     assert_eq!(called("run = \"controls yasnac-mx1\"\n"), "controls yasnac-mx1 <   (no line end)");
     assert_eq!(called("file = \"-\"\n"), "trace - < M30");
@@ -207,8 +213,10 @@ fn an_alarm_raised_and_not_covered_is_found() {
 
 #[test]
 fn a_covered_rule_that_does_not_exist_is_found() {
-    for (covered, known) in [("R1", true), ("R9", false), ("5.11", false), ("P1", false), ("G81", true), ("ARC", true)] {
-        let corpus = folder(&[("rules.toml", RULES), ("a/case.toml", &CASE.replace("\"R1\"", &format!("\"{covered}\"")))]);
+    for (covered, known) in [("R1", true), ("R9", false), ("5.11", false), ("P1", false), ("G81", true), ("ARC", true)]
+    {
+        let corpus =
+            folder(&[("rules.toml", RULES), ("a/case.toml", &CASE.replace("\"R1\"", &format!("\"{covered}\"")))]);
         assert_eq!(covers_are_known(corpus.path()).is_ok(), known, "{covered}");
     }
 }
@@ -219,8 +227,11 @@ fn a_corpus_that_is_not_there_is_no_success() {
     assert!(trials(Path::new("program"), nothing.path(), Mode::Compare).is_err());
     assert!(trials(Path::new("program"), &nothing.path().join("nowhere"), Mode::Compare).is_err());
     let one = folder(&[("yasnac-mx1/r01-a/case.toml", CASE)]);
-    let names: Vec<String> =
-        trials(Path::new("program"), one.path(), Mode::Compare).expect("tests").iter().map(|t| t.name().to_owned()).collect();
+    let names: Vec<String> = trials(Path::new("program"), one.path(), Mode::Compare)
+        .expect("tests")
+        .iter()
+        .map(|t| t.name().to_owned())
+        .collect();
     assert_eq!(names[0], "yasnac-mx1/r01-a");
     assert_eq!(names.len(), 4);
 }

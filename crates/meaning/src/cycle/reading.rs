@@ -66,7 +66,7 @@ impl Reading<'_> {
         self.holes((count > 0).then_some(cycle), places)
     }
 
-    /// G70 and G72: holes on a circle or a line, made with the cycle in force or only gone to.
+    /// G70, G71, G72: holes on a circle, an arc or a line, made with the cycle in force or only gone to.
     pub fn pattern(&mut self, code: Meaning, cycle: Option<Meaning>) -> Result<(), Alarm> {
         self.refuse_unbuilt_cycle(cycle)?;
         let control = self.control();
@@ -96,26 +96,29 @@ impl Reading<'_> {
         if count == 0 {
             return Err(wrong(Condition::PatternCount, b'L'));
         }
-        let places = if code == Meaning::BoltCircle {
+        if count < 0 && code != Meaning::BoltCircle {
+            return Err(wrong(Condition::PatternCount, b'L'));
+        }
+        let places = if code != Meaning::LinePattern {
             if size <= 0.0 {
                 return Err(wrong(Condition::PatternRadius, b'I'));
             }
+            let step = self.words.angle(control, b'K')?.unwrap_or(0.0) / 1e6;
             Places::Circle {
                 level,
                 axes: [x as u8, y as u8],
                 center: [level[x], level[y]],
                 radius: size,
                 first_deg: angle,
-                step_deg: 360.0 / count as f64,
+                step_deg: if code == Meaning::BoltCircle { 360.0 / count as f64 } else { step },
                 count: count.unsigned_abs() as u32,
             }
         } else {
-            let Ok(count) = u32::try_from(count) else { return Err(wrong(Condition::PatternCount, b'L')) };
             let (sin, cos) = sin_cos_deg(angle);
             let mut step = [0.0; AXES];
             step[x] = size * cos;
             step[y] = size * sin;
-            Places::Row { first: level, step, count }
+            Places::Row { first: level, step, count: count.unsigned_abs() as u32 }
         };
         self.holes(cycle, places)
     }

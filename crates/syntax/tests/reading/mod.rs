@@ -1,6 +1,8 @@
 //! Reads whole texts in windows of any size and asserts what every reading keeps. The fuzz target `read` uses it too.
 
-use syntax::{Block, Cursor, Extent, Fault, Grammar, Outcome, Skip, StatementKind, Value, Word, print_block, read_block};
+use syntax::{
+    Block, Cursor, Extent, Fault, Grammar, Outcome, Skip, StatementKind, Value, Word, print_block, read_block,
+};
 use tape::{Reader, Text};
 
 /// A text's characters, translated in one piece.
@@ -73,7 +75,10 @@ impl Lines {
 pub fn check_block(block: &Block, before: Cursor, whole: &[u8]) {
     let (start, end, next) = (block.start.offset, block.start.offset + u64::from(block.len), block.next.offset);
     assert!(next > before.offset, "reading advances: {block:?}");
-    assert!(before.offset <= start && end <= next && next <= whole.len() as u64, "the block lies in the text: {block:?}");
+    assert!(
+        before.offset <= start && end <= next && next <= whole.len() as u64,
+        "the block lies in the text: {block:?}"
+    );
     let inside = |what: &str, extent: &Extent| {
         let end = u32::from(extent.at) + u32::from(extent.len);
         assert!(extent.len > 0 && end <= block.len, "{what} {extent:?} lies in the block: {block:?}");

@@ -1,0 +1,2 @@
+(HEAD)
+G00 (RAPID) X1. (GO ON, @ # $)

@@ -1,0 +1,153 @@
+//! A running program allocates nothing that depends on its length: memory does not grow, and time is not spent on it.
+
+#![allow(unsafe_code)] // a global allocator is unsafe by its signature
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
+
+mod watch;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::fmt::Write;
+
+use base::SourceId;
+use machine::EventKind;
+use station::{AfterAlarm, Session, Setup, Step};
+use watch::{Texts, configuration, machine};
+
+/// The system's allocator, counting each thread's calls that give memory.
+struct Counting;
+
+thread_local! {
+    static TAKEN: Cell<u64> = const { Cell::new(0) };
+}
+
+fn count() {
+    // While a thread ends there is nothing left to count in.
+    let _ = TAKEN.try_with(|taken| taken.set(taken.get() + 1));
+}
+
+// SAFETY: every call is handed to the system's allocator as it is.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: the caller keeps alloc's contract.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the pointer came from `alloc`, that is from the system's allocator.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        // SAFETY: as for `dealloc`.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+const SMALL: usize = 1_000;
+const LARGE: usize = 100_000;
+
+/// Runs until every buffer has been taken: the control keeps a few windows onto its texts.
+const WARM: usize = 3;
+
+/// A program of so many lines made by `line`, with a subprogram O2 behind it.
+fn program(lines: usize, line: impl Fn(usize) -> String) -> Vec<u8> {
+    let mut text = "%\nO1\nG90G17G21G54F500\nG00X0Y0Z50.\n".to_owned();
+    for index in 0..lines {
+        let _ = writeln!(text, "{}", line(index));
+    }
+    text += "G80G90G00X0Y0\nM30\nO2\nG91G01X1.F600\nX-1.\nM99\n%\n";
+    text.into_bytes()
+}
+
+/// Allocations of a whole run of the text with this id, and how many blocks it had.
+fn allocations(session: &mut Session<Texts>, source: u32) -> (u64, u64) {
+    let before = TAKEN.get();
+    session.select(SourceId(source), "part");
+    session.start();
+    let mut blocks = 0;
+    loop {
+        match session.next() {
+            Step::Event(event) => match event.kind {
+                EventKind::BlockDone => blocks += 1,
+                EventKind::Alarm(alarm) => panic!("{:?} in line {}", alarm.condition, alarm.place.line),
+                _ => {}
+            },
+            Step::Stopped => session.start(),
+            Step::Idle => break,
+            Step::Failed(error) => panic!("{error}"),
+        }
+    }
+    (TAKEN.get() - before, blocks)
+}
+
+/// The same kind of program, short and long, after both have been run once.
+fn check(what: &str, line: impl Fn(usize) -> String) {
+    for after in [AfterAlarm::Stand, AfterAlarm::GoOn] {
+        let texts = Texts { texts: vec![program(SMALL, &line), program(LARGE, &line)], ..Texts::default() };
+        let mut session = Session::new(configuration(machine("unlimited", None), &Setup::default()), texts);
+        session.set_after_alarm(after);
+        for _ in 0..WARM {
+            allocations(&mut session, 1);
+            allocations(&mut session, 0);
+        }
+        let (short, few) = allocations(&mut session, 0);
+        let (long, many) = allocations(&mut session, 1);
+        assert!(few >= SMALL as u64 && many >= LARGE as u64, "{what}: {few} and {many} blocks ran");
+        assert_eq!(short, long, "{what}: allocations of {few} and of {many} blocks");
+    }
+}
+
+#[test]
+fn the_counter_counts() {
+    let before = TAKEN.get();
+    drop(std::hint::black_box(Box::new(1u8)));
+    assert_eq!(TAKEN.get() - before, 1);
+}
+
+#[test]
+fn lines_allocate_nothing() {
+    check("lines", |n| format!("N{}G01X{}.5Y-.{}Z0(CUT)", n % 9999 + 1, n % 90, n % 77));
+}
+
+#[test]
+fn arcs_allocate_nothing() {
+    check("arcs", |n| match n % 3 {
+        0 => "G91G02X10.Y10.I10.F800.".to_owned(),
+        1 => "G03X-10.Y-10.R10.".to_owned(),
+        _ => "G90G02X3.Y4.I1.J-7.".to_owned(),
+    });
+}
+
+#[test]
+fn cycles_and_patterns_allocate_nothing() {
+    check("cycles", |n| match n % 5 {
+        0 => format!("G98G81X{}.Z-3.R2.F200", n % 50),
+        1 => "G83Y5.Z-3.R2.Q.5L2".to_owned(),
+        2 => "G70X1.Y2.I20.J15.L6".to_owned(),
+        3 => "G84X2.Z-2.R1.P100F300".to_owned(),
+        _ => "G80".to_owned(),
+    });
+}
+
+#[test]
+fn calls_allocate_nothing() {
+    check("calls", |_| "M98P2L2".to_owned());
+}
+
+#[test]
+fn offsets_and_codes_allocate_nothing() {
+    check("offsets", |n| match n % 6 {
+        0 => "G90G00G43Z10.H1".to_owned(),
+        1 => "G91G01G45X5.D2".to_owned(),
+        2 => "G49".to_owned(),
+        3 => format!("S{}M03T{}", n % 3000, n % 99),
+        4 => "G92X0Y0".to_owned(),
+        _ => "/2G04P10M08".to_owned(),
+    });
+}
