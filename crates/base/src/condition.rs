@@ -82,8 +82,6 @@ conditions! {
     OneShotCompany = "one-shot-company",
     /// Tool length compensation switched together with, or under, an arc.
     LengthOffsetWithArc = "length-offset-with-arc",
-    /// G45 to G48 where no movement that can be lengthened is in force.
-    PositionOffsetWithoutMotion = "position-offset-without-motion",
     /// G45 to G48 while a canned cycle is active.
     PositionOffsetInCycle = "position-offset-in-cycle",
     /// G45 to G48 while tool radius compensation is active.
@@ -117,7 +115,7 @@ conditions! {
     CycleLevelMissing = "cycle-level-missing",
     /// A pecking cycle lacks its depth of cut Q.
     CyclePeckMissing = "cycle-peck-missing",
-    /// A hole pattern has no holes (L 0 or missing).
+    /// A hole pattern has no holes (L 0, missing, or negative where no direction belongs to it).
     PatternCount = "pattern-count",
     /// A bolt circle's radius I is zero, negative or missing.
     PatternRadius = "pattern-radius",

@@ -47,9 +47,7 @@ impl Unknown {
             Condition::ArcRadiusZero | Condition::ArcRadiusTooSmall | Condition::ArcEndOff => {
                 !self.axes.is_empty() || any(&[roles.motion, roles.plane, roles.distance, roles.units, roles.work])
             }
-            Condition::LengthOffsetWithArc | Condition::OneShotWithMotion | Condition::PositionOffsetWithoutMotion => {
-                self.group(roles.motion)
-            }
+            Condition::LengthOffsetWithArc | Condition::OneShotWithMotion => self.group(roles.motion),
             Condition::PositionOffsetInCycle | Condition::CycleLevelMissing | Condition::CyclePeckMissing => {
                 self.group(roles.cycle) || self.word(b'R') || self.word(b'Z') || self.word(b'Q')
             }

@@ -23,8 +23,9 @@ fn coordinate() -> impl Strategy<Value = f64> + Clone {
 fn arc() -> impl Strategy<Value = Arc> {
     let point = [coordinate(), coordinate(), coordinate()];
     let plane = prop::sample::select(vec![(Plane::Xy, [0u8, 1]), (Plane::Zx, [2, 0]), (Plane::Yz, [1, 2])]);
-    (point.clone(), point, [coordinate(), coordinate()], plane, any::<bool>(), 0u8..4)
-        .prop_filter_map("an arc does not start on its centre", |(from, to, center, (plane, axes), clockwise, kind)| {
+    (point.clone(), point, [coordinate(), coordinate()], plane, any::<bool>(), 0u8..4).prop_filter_map(
+        "an arc does not start on its centre",
+        |(from, to, center, (plane, axes), clockwise, kind)| {
             let [u, v] = axes.map(usize::from);
             let wide = |p: [f64; 3]| [p[0], p[1], p[2], 0.0, 0.0, 0.0, 0.0, 0.0];
             let (from, mut to) = (wide(from), wide(to));
@@ -40,7 +41,8 @@ fn arc() -> impl Strategy<Value = Arc> {
             }
             let full_circle = from[u] == to[u] && from[v] == to[v];
             Some(Arc::new(&from, &ArcMove { to, plane, axes, center, clockwise, full_circle }))
-        })
+        },
+    )
 }
 
 fn samples(arc: &Arc) -> Vec<Point> {

@@ -67,7 +67,8 @@ impl Station {
 
     fn perform(&mut self, action: &Action) {
         let Station { operator, watch, events } = self;
-        let find = |_: &mut Texts, name: &str| name.parse().ok().map(|index: u32| (SourceId(index), format!("P{index}")));
+        let find =
+            |_: &mut Texts, name: &str| name.parse().ok().map(|index: u32| (SourceId(index), format!("P{index}")));
         let mut tell = |session: &mut Session<Texts>, said: Said| {
             if let Said::Event(event) = said {
                 watch.see(&event, session);

@@ -53,7 +53,11 @@ fn mode() -> impl Strategy<Value = Mode> {
 fn set_up(mode: Mode) -> Configuration {
     let policies = if mode.at_border { vec![("stroke-check".to_owned(), "at-border".to_owned())] } else { Vec::new() };
     let setup = Setup {
-        offsets: vec![(OffsetColumn::Common, 1, 12.5), (OffsetColumn::Common, 2, -3.25), (OffsetColumn::Common, 31, 8.0)],
+        offsets: vec![
+            (OffsetColumn::Common, 1, 12.5),
+            (OffsetColumn::Common, 2, -3.25),
+            (OffsetColumn::Common, 31, 8.0),
+        ],
         work: vec![("G54".into(), b'X', 10.0), ("G55".into(), b'Z', -20.0)],
         policies,
         ..Setup::default()
@@ -107,7 +111,12 @@ proptest! {
 fn checking_on_begins_as_running_does() {
     let text = "G90G00X1.\nG01X2.F100\nX99999999.\nG00X3.\nM30\n";
     let mode = |after_alarm| Mode {
-        travel: None, after_alarm, block_delete: 0, optional_stop: false, single_block: false, at_border: false,
+        travel: None,
+        after_alarm,
+        block_delete: 0,
+        optional_stop: false,
+        single_block: false,
+        at_border: false,
     };
     let stands = events(text.as_bytes(), &[], mode(AfterAlarm::Stand));
     let goes_on = events(text.as_bytes(), &[], mode(AfterAlarm::GoOn));

@@ -65,7 +65,8 @@ fn block(control: &Control) -> impl Strategy<Value = String> + use<> {
 
 /// Lines of a program, some numbered, some skipped, some spoilt.
 fn lines(control: &Control, most: usize) -> impl Strategy<Value = String> + use<> {
-    let head = prop_oneof![8 => Just(String::new()), 2 => (1u32..6).prop_map(|n| format!("N{n}")), 1 => Just("/".to_owned())];
+    let head =
+        prop_oneof![8 => Just(String::new()), 2 => (1u32..6).prop_map(|n| format!("N{n}")), 1 => Just("/".to_owned())];
     let line = (head, block(control), prop_oneof![9 => Just("\n"), 1 => Just(";"), 1 => Just("\r\n")])
         .prop_map(|(head, block, end)| format!("{head}{block}{end}"));
     prop::collection::vec(line, 0..most).prop_map(|lines| lines.concat())
@@ -76,10 +77,10 @@ pub fn program(control: &Control) -> impl Strategy<Value = String> + use<> {
     let subprogram = (lines(control, 6), select(vec!["M99\n", "M99P3\n", ""]));
     let subprograms = prop::collection::vec(subprogram, 0..4);
     let head = select(vec!["O1\n", "%\nO0001(MAIN)\n", "", "\u{FEFF}O1;"]);
-    (head, lines(control, 20), select(vec!["M30\n", "M02\n", "M99\n", ""]), subprograms, select(vec!["%", ""])).prop_map(
-        |(head, main, end, subprograms, tail)| {
-            let called = subprograms.iter().enumerate().map(|(index, (lines, end))| format!("O{}\n{lines}{end}", index + 2));
+    (head, lines(control, 20), select(vec!["M30\n", "M02\n", "M99\n", ""]), subprograms, select(vec!["%", ""]))
+        .prop_map(|(head, main, end, subprograms, tail)| {
+            let called =
+                subprograms.iter().enumerate().map(|(index, (lines, end))| format!("O{}\n{lines}{end}", index + 2));
             format!("{head}{main}{end}{}{tail}", called.collect::<String>())
-        },
-    )
+        })
 }

@@ -145,7 +145,8 @@ impl Watch {
             self.time = event.time.0;
         }
         // The start of a program is no block of it, and RESET needs none.
-        let may_be_placeless = matches!(event.kind, EventKind::Start(_) | EventKind::BlockDone | EventKind::Reset { .. });
+        let may_be_placeless =
+            matches!(event.kind, EventKind::Start(_) | EventKind::BlockDone | EventKind::Reset { .. });
         let placeless = may_be_placeless && event.place.line == 0;
         if !placeless {
             self.check_place(event, session);
