@@ -1,10 +1,14 @@
 """Runs a command pinned to one core and says what it used."""
 import os
+import re
 import subprocess
+import threading
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
 PROGRAM = Path(os.environ.get("CARGO_TARGET_DIR", "target")) / "release" / "cyclestart"
+LOOK_EVERY_S = 0.005
 
 
 @dataclass
@@ -22,21 +26,45 @@ def pin() -> None:
         os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
 
+def peak_mib(pid: int) -> float:
+    """The process's peak so far, from Linux's own account; 0 before its program is loaded and once it has ended.
+
+    What the system reports at the end (ru_maxrss) will not do: it counts this very script, from which the process came.
+    """
+    try:
+        if os.readlink(f"/proc/{pid}/exe") == os.readlink("/proc/self/exe"):
+            return 0.0
+        status = Path(f"/proc/{pid}/status").read_text(encoding="ascii")
+    except OSError:
+        return 0.0
+    found = re.search(r"^VmHWM:\s*(\d+) kB", status, re.MULTILINE)
+    return int(found.group(1)) / 1024 if found else 0.0
+
+
+def feed_all(feed, pipe) -> None:
+    try:
+        with pipe:
+            feed(pipe)
+    except BrokenPipeError:
+        pass  # the exit code says why
+
+
 def run(command: list[str], feed=None) -> Used:
     """Runs a command to its end, its output thrown away. `feed` writes its standard input."""
     source = subprocess.PIPE if feed else subprocess.DEVNULL
-    process = subprocess.Popen(command, stdin=source, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=pin)
+    process = subprocess.Popen(command, stdin=source, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                               preexec_fn=pin)
     if feed:
-        try:
-            with process.stdin as pipe:
-                feed(pipe)
-        except BrokenPipeError:
-            pass  # its exit code says why
-    _, status, usage = os.wait4(process.pid, 0)
+        threading.Thread(target=feed_all, args=(feed, process.stdin)).start()
+    mib = 0.0
+    while True:
+        pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+        if pid:
+            break
+        mib = max(mib, peak_mib(process.pid))
+        time.sleep(LOOK_EVERY_S)
     process.returncode = os.waitstatus_to_exitcode(status)
-    # The unit of ru_maxrss is the system's.
-    unit = 1 if os.uname().sysname == "Darwin" else 1024
-    return Used(process.returncode, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * unit / 2**20)
+    return Used(process.returncode, usage.ru_utime + usage.ru_stime, mib)
 
 
 def needs_program() -> None:

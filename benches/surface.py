@@ -19,7 +19,7 @@ def height(x: float, y: float) -> float:
 
 
 def head(spelling: str) -> str:
-    start = "G17 G21 G40 G49 G80 G90\nG54\nS12000 M03\nG00 X0. Y0.\nZ30.\nG01 Z12. F1500\nF3000\n"
+    start = "G17 G21 G40 G49 G80 G90\nG54\nS8000 M03\nG00 X0. Y0.\nZ30.\nG01 Z12. F1500\nF3000\n"
     return ("%\nO0001\n(SURFACE FINISHING)\n" if spelling == "fanuc" else "(SURFACE FINISHING)\nG64 P0.01\n") + start
 
 
