@@ -1,30 +1,53 @@
-# cyclestart: each target one line that a reader understands.
-CARGO := $(shell command -v cargo || echo "echo 'cargo is missing: install Rust 1.95 or later from https://rustup.rs' >&2; false")
-CYCLESTART := target/release/cyclestart
+PROGRAM := $(or $(CARGO_TARGET_DIR),target)/release/cyclestart
 EXAMPLE := examples/plate.nc --setup examples/plate.setup.toml
 
-.PHONY: help run test build cases clean
-help: ## say what there is
-	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /	/'
+help: ## this list
+	@grep -E '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## /make \1	/' | expand -t 16
 
-build: ## leave the program at target/release/cyclestart
-	$(CARGO) build --release --locked --package cyclestart
+run: build ## build, run the example program, draw its picture
+	$(PROGRAM) run $(EXAMPLE)
+	@mkdir -p run && $(PROGRAM) plot $(EXAMPLE) -o run/plate.svg && $(PROGRAM) plot $(EXAMPLE) -o run/plate.png
+	@echo "The picture: run/plate.svg and run/plate.png"
 
-run: build ## run the example program on the virtual machine and draw its tool path
-	@mkdir -p run
-	$(CYCLESTART) run $(EXAMPLE)
-	@$(CYCLESTART) plot $(EXAMPLE) --output run/plate.svg
-	@$(CYCLESTART) plot $(EXAMPLE) --output run/plate.png
-	@echo "The picture of the tool path: run/plate.png (and run/plate.svg)"
+build: cargo ## the program, at target/release/cyclestart
+	cargo build --release --locked
 
-test: ## everything that CI runs
-	$(CARGO) fmt --all --check
-	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
-	$(CARGO) test --workspace --locked
-	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked --document-private-items
+test: format lint unit docs checks ## everything that CI runs
 
-cases: ## rewrite the expectations of cases/ from what the program prints; the diff is the review
-	UPDATE_CASES=1 $(CARGO) test --package cyclestart --test cases
+format: cargo
+	cargo fmt --all --check
+	cargo fmt --manifest-path fuzz/Cargo.toml --check
 
-clean: ## remove what was built
-	$(CARGO) clean
+lint: cargo
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+
+unit: cargo
+	cargo test --workspace --all-targets --locked --no-fail-fast
+
+docs: cargo
+	cargo test --workspace --doc --locked
+	RUSTDOCFLAGS=-Dwarnings cargo doc --workspace --no-deps --locked
+
+checks: cargo
+	python3 ci/house.py
+	python3 ci/licences.py
+	python3 -m unittest discover -q ci
+
+bench: build ## measure: speed beside a peer, memory; prints command, sample, figure, limit
+	python3 benches/check_surface.py
+	python3 benches/memory.py
+
+fuzz: cargo ## throw random programs at the reader and at the whole interpreter, FUZZ_SECONDS=60 each
+	ci/fuzz.sh read
+	ci/fuzz.sh interpret
+
+cases: cargo ## write what the program now prints into cases/; the diff is the review
+	UPDATE_CASES=1 cargo test -p cyclestart --test cases --locked
+
+clean: ## remove all that was built
+	rm -rf target run fuzz/target fuzz/corpus fuzz/artifacts
+
+cargo:
+	@command -v cargo >/dev/null || { echo "Rust's cargo is missing: rustup.rs says how to install it (one line)."; exit 1; }
+
+.PHONY: help run build test format lint unit docs checks bench fuzz cases clean cargo

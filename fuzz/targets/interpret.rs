@@ -6,8 +6,7 @@
 
 use std::sync::LazyLock;
 
-use base::SourceId;
-use fuzz::watch::{Expect, Texts, configuration, machine, run};
+use fuzz::watch::{Expect, Texts, configuration, machine, run, select};
 use libfuzzer_sys::fuzz_target;
 use machine::EventKind;
 use report::{Excerpt, Format, render};
@@ -42,7 +41,7 @@ fuzz_target!(|input: &[u8]| {
     let mut session = Session::new(configuration, texts);
     session.set_after_alarm(if bit(1) { AfterAlarm::GoOn } else { AfterAlarm::Stand });
     session.interpreter_mut().set_loop_limit(MOST_JUMPS);
-    session.select(SourceId(0), "fuzz");
+    select(&mut session, 0);
     let events = run(&mut session, Expect { most_events: MOST_EVENTS, stays_inside: !bit(1) });
     if bit(3) {
         // The faces of an alarm, as `check` shows it.

@@ -23,7 +23,7 @@ pub fn open(file: &str, arguments: &SettingArguments) -> Result<Session<Texts>, 
     let source = texts.open(file)?;
     let mut session = Session::new(configuration, texts);
     session.interpreter_mut().set_loop_limit(arguments.loop_limit);
-    session.select(source, &Texts::program_name(file));
+    session.select(source, &Texts::program_name(file), syntax::Cursor::HEAD);
     Ok(session)
 }
 

@@ -17,11 +17,13 @@ use clap::Parser;
 
 use crate::arguments::{Command, CommandLine};
 use crate::failure::Failure;
+use crate::output::say;
 
 fn main() -> ExitCode {
     panic::set_hook(Box::new(|info| {
-        eprintln!("internal error: {info}");
-        eprintln!("This is a bug in cyclestart, not in your program. Please report it with the command and its input.");
+        say(&format!(
+            "internal error: {info}\nThis is a bug in cyclestart, not in your program. Please report it with the command and its input.\n"
+        ));
     }));
     let command_line = CommandLine::parse();
     let outcome = panic::catch_unwind(AssertUnwindSafe(|| run(command_line.command)));
@@ -30,7 +32,7 @@ fn main() -> ExitCode {
         Ok(Ok(false)) => ExitCode::from(1),
         Ok(Err(Failure::PipeClosed)) => ExitCode::SUCCESS,
         Ok(Err(Failure::Call(message))) => {
-            eprintln!("{message}");
+            say(&format!("{message}\n"));
             ExitCode::from(2)
         }
         Err(_) => ExitCode::from(3),

@@ -34,6 +34,11 @@ impl Output {
     }
 }
 
+/// Writes to standard error; that nobody reads it is no reason to fail.
+pub fn say(text: &str) {
+    let _ = io::stderr().lock().write_all(text.as_bytes());
+}
+
 fn wants_colour() -> bool {
     std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }

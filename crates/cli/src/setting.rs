@@ -1,7 +1,7 @@
 //! From the command line to a configuration: the control's tables, the machine's file, the set-up.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use dialect::{Control, ControlFiles, ParameterSetting, builtin_controls, builtin_files, load_control};
@@ -10,7 +10,7 @@ use station::{Configuration, OffsetColumn, Setup, read_setup};
 
 use crate::arguments::SettingArguments;
 use crate::failure::Failure;
-use crate::texts::Texts;
+use crate::texts::{Texts, folder_of};
 
 /// The names of the controls at hand.
 pub fn control_names(folder: Option<&Path>) -> Result<Vec<String>, Failure> {
@@ -168,8 +168,7 @@ fn offset(text: &str, common: bool) -> Result<(OffsetColumn, u32, f64), Failure>
 pub fn texts(file: &str, arguments: &SettingArguments) -> Result<Texts, Failure> {
     let mut folders = Vec::new();
     if file != "-" {
-        let folder = Path::new(file).parent().filter(|folder| !folder.as_os_str().is_empty());
-        folders.push(folder.map_or_else(|| PathBuf::from("."), Path::to_path_buf));
+        folders.push(folder_of(file));
     }
     if let Some(library) = &arguments.library {
         if !library.is_dir() {

@@ -1,5 +1,6 @@
 //! Program texts on disk: files, standard input spooled to a temporary file, subprograms by their number.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -18,8 +19,8 @@ struct Source {
     file: File,
     /// Where the file is read next without seeking.
     at: u64,
-    /// Standard input not yet spooled.
-    rest: Option<io::Stdin>,
+    /// What of a stream (standard input, a pipe) has not been spooled yet.
+    rest: Option<Box<dyn Read>>,
     /// Bytes of the file known to exist.
     length: u64,
 }
@@ -28,19 +29,20 @@ struct Source {
 pub struct Texts {
     sources: Vec<Source>,
     folders: Vec<PathBuf>,
+    /// Programs in the control's memory, by their numbers.
+    memory: BTreeMap<u32, SourceId>,
 }
 
 impl Texts {
     /// No texts yet; subprograms are looked up in these folders, in their order.
     pub fn new(folders: Vec<PathBuf>) -> Texts {
-        Texts { sources: Vec::new(), folders }
+        Texts { sources: Vec::new(), folders, memory: BTreeMap::new() }
     }
 
     /// Opens a program, `-` for standard input.
     pub fn open(&mut self, name: &str) -> Result<SourceId, Failure> {
         if name == "-" {
-            let file = tempfile::tempfile().map_err(|e| Failure::call(format!("no room for standard input: {e}")))?;
-            return Ok(self.push(Source { name: "<stdin>".into(), file, at: 0, rest: Some(io::stdin()), length: 0 }));
+            return self.spooled("<stdin>", Box::new(io::stdin()));
         }
         let cannot = |error: io::Error| Failure::call(format!("cannot read {name}: {error}"));
         let file = File::open(name).map_err(cannot)?;
@@ -48,7 +50,30 @@ impl Texts {
         if facts.is_dir() {
             return Err(Failure::call(format!("cannot read {name}: it is a folder")));
         }
+        if !facts.is_file() {
+            // A pipe or device cannot be read at any place: it is a stream like standard input.
+            return self.spooled(name, Box::new(file));
+        }
         Ok(self.push(Source { name: name.to_owned(), file, at: 0, rest: None, length: facts.len() }))
+    }
+
+    /// A stream, which is written to a temporary file as far as it is read.
+    fn spooled(&mut self, name: &str, stream: Box<dyn Read>) -> Result<SourceId, Failure> {
+        let file = tempfile::tempfile().map_err(|e| Failure::call(format!("no room to spool {name}: {e}")))?;
+        Ok(self.push(Source { name: name.to_owned(), file, at: 0, rest: Some(stream), length: 0 }))
+    }
+
+    /// A program in memory is found before any file.
+    pub fn keep_in_memory(&mut self, number: u32, source: SourceId) {
+        self.memory.insert(number, source);
+    }
+
+    /// Subprograms are looked up beside this file too.
+    pub fn look_beside(&mut self, file: &str) {
+        let folder = folder_of(file);
+        if !self.folders.contains(&folder) {
+            self.folders.push(folder);
+        }
     }
 
     fn push(&mut self, source: Source) -> SourceId {
@@ -87,7 +112,7 @@ impl Texts {
 impl Source {
     /// Spools standard input until the file holds `end` bytes or the input has ended.
     fn spool(&mut self, end: u64) -> io::Result<()> {
-        let Some(input) = &mut self.rest else { return Ok(()) };
+        let Some(input) = self.rest.as_mut() else { return Ok(()) };
         let mut chunk = [0u8; 16 * 1024];
         while self.length < end {
             let count = match input.read(&mut chunk) {
@@ -134,6 +159,9 @@ impl Library for Texts {
     }
 
     fn find_program(&mut self, number: u32) -> Result<Option<SourceId>, LibraryError> {
+        if let Some(&source) = self.memory.get(&number) {
+            return Ok(Some(source));
+        }
         for folder in self.folders.clone() {
             let Some(path) = find_file(&folder, number) else { continue };
             let name = path.to_string_lossy().into_owned();
@@ -147,6 +175,12 @@ impl Library for Texts {
         }
         Ok(None)
     }
+}
+
+/// The folder a file stands in.
+pub fn folder_of(file: &str) -> PathBuf {
+    let folder = Path::new(file).parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder.map_or_else(|| PathBuf::from("."), Path::to_path_buf)
 }
 
 /// The file of a program number in a folder: `O4321` with any of the endings, in any case of letters.

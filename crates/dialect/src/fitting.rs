@@ -228,6 +228,10 @@ fn parse_value(text: &str, kind: ParameterKind) -> Option<f64> {
         if text.len() == 8 && text.bytes().all(|b| b == b'0' || b == b'1') {
             return u8::from_str_radix(text, 2).ok().map(f64::from);
         }
+        if text.len() == 8 {
+            // Eight digits are D7 to D0, and one of them is neither 0 nor 1.
+            return None;
+        }
         return text.parse::<u8>().ok().map(f64::from);
     }
     text.parse::<f64>().ok().filter(|value| value.is_finite())

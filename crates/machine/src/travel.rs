@@ -111,7 +111,9 @@ impl Travel {
         let mut time = f64::INFINITY;
         for axis in self.axes.iter() {
             if let Some(border) = self.border(axis, to[axis]) {
-                time = time.min((border - from[axis]).abs() / rates[axis]);
+                // An axis that stands beyond its border already does not move further out.
+                let way = (border - from[axis]) * (to[axis] - from[axis]).signum();
+                time = time.min(way.max(0.0) / rates[axis]);
             }
         }
         let mut end = *to;

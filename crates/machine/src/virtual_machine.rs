@@ -18,6 +18,12 @@ use crate::travel::{Exit, Travel};
 /// The station calls [`Machine::execute`] with one shape after the other, in the order of the program, and never with
 /// one that lies behind a refused one. An implementation must not move an axis for any other reason.
 pub trait Machine {
+    /// Whether a move may begin: it stays within the travel, or the machine stops it at the border.
+    ///
+    /// # Errors
+    /// The move would leave the travel and is refused as a whole.
+    fn check(&self, timed: &Timed<'_>) -> Result<(), Refusal>;
+
     /// Executes a shape to its end. What happened is handed to `tell` in order.
     ///
     /// # Errors
@@ -161,6 +167,16 @@ impl VirtualMachine {
 }
 
 impl Machine for VirtualMachine {
+    fn check(&self, timed: &Timed<'_>) -> Result<(), Refusal> {
+        if !timed.shaped.certain || self.stroke_check == StrokeCheck::AtBorder {
+            return Ok(());
+        }
+        match self.travel.exit(&timed.shaped.shape) {
+            Some(exit) if !self.unknown.has(exit.axis) => Err(self.refuse(exit, &timed.shaped.place)),
+            _ => Ok(()),
+        }
+    }
+
     fn execute(&mut self, timed: &Timed<'_>, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal> {
         let place = &timed.shaped.place;
         match &timed.shaped.shape {

@@ -50,6 +50,8 @@ pub(crate) struct Reading<'r> {
     pub exact_stop: bool,
     pub rapid_kind: RapidKind,
     pub position_offset: Option<PositionOffset>,
+    /// The block calls a subprogram or returns from one: its P and L are the call's.
+    pub calls_or_returns: bool,
     /// By how much the length offset has changed.
     pub length_change: f64,
     /// The block's one-shot code and the index of its word.
@@ -90,6 +92,7 @@ pub(crate) fn read_meaning(
         exact_stop: false,
         rapid_kind: RapidKind::Checked,
         position_offset: None,
+        calls_or_returns: false,
         length_change: 0.0,
         one_shot: None,
         now_known: AxisSet::NONE,
@@ -311,11 +314,13 @@ impl Reading<'_> {
 
     /// Notes where the axis words stand and what is known now.
     fn finish(&mut self) {
+        // The words of a dwell and of G92 lead nowhere.
+        let places = !matches!(self.one_shot, Some((Meaning::Dwell | Meaning::SetCoordinates, _)));
         let mut absolute = AxisSet::NONE;
         for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
             let word = self.words.word(facts.letter);
             self.command.axis_words[axis] = word.map_or_else(Default::default, |word| word.extent);
-            if word.is_some() && self.absolute {
+            if word.is_some() && self.absolute && places {
                 absolute.add(axis);
             }
         }
@@ -331,6 +336,16 @@ impl Reading<'_> {
         let mut unknown = self.next.unknown;
         unknown.groups &= !self.groups_written;
         unknown.words &= !self.words.letters();
+        if let Some((Meaning::SetCoordinates, _)) = self.one_shot {
+            // An origin set from an unknown place is unknown; one set from a known place is known again.
+            let named = self.axes_named().unwrap_or_default();
+            unknown.origins = unknown.origins.without(named).or(named.and(unknown.axes));
+            unknown.groups &= !(1 << roles.work);
+            self.next.unknown = unknown;
+            return;
+        }
+        let in_base = self.control().in_force(&self.next.groups, roles.work) == Some(Meaning::BaseSystem);
+        let astray = if in_base { unknown.origins } else { AxisSet::NONE };
         let rests = [roles.distance, roles.work, roles.units, roles.cycle];
         let named = self.now_known.or(absolute);
         if rests.iter().any(|&group| unknown.group(group)) {
@@ -338,7 +353,8 @@ impl Reading<'_> {
         } else {
             let at_reference = matches!(self.one_shot, Some((Meaning::ReferenceReturn, _)));
             let known = if at_reference { self.now_known } else { absolute };
-            unknown.axes = unknown.axes.without(known);
+            let known = if at_reference { known } else { known.without(astray) };
+            unknown.axes = unknown.axes.without(known).or(absolute.and(astray));
         }
         self.next.unknown = unknown;
     }

@@ -63,7 +63,11 @@ impl Reading<'_> {
             self.command.stops_reading |= row.stops_read_ahead;
             let after = self.setting.facts.codes.m_after_motion.contains(&code);
             match row.meaning {
-                MMeaning::ProgramStop => self.command.finish = Finish::ProgramStop,
+                // The program's end in the same block is stronger than a stop, in either order.
+                MMeaning::ProgramStop if !matches!(self.command.finish, Finish::End(_)) => {
+                    self.command.finish = Finish::ProgramStop;
+                }
+                MMeaning::ProgramStop => {}
                 MMeaning::OptionalStop => {
                     if self.command.finish == Finish::Next {
                         self.command.finish = Finish::OptionalStop;
@@ -72,8 +76,14 @@ impl Reading<'_> {
                 }
                 MMeaning::ProgramEnd => self.command.finish = Finish::End(EndKind::M02),
                 MMeaning::TapeEnd => self.command.finish = Finish::End(EndKind::M30),
-                MMeaning::SubprogramCall => flow = self.call(word)?,
-                MMeaning::SubprogramEnd => flow = self.subprogram_end()?,
+                MMeaning::SubprogramCall => {
+                    self.calls_or_returns = true;
+                    flow = self.call(word)?;
+                }
+                MMeaning::SubprogramEnd => {
+                    self.calls_or_returns = true;
+                    flow = self.subprogram_end()?;
+                }
                 _ => return Err(self.words.alarm_at(Condition::NotYetBuilt, word).into()),
             }
             if row.to_machine {

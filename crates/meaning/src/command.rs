@@ -2,7 +2,7 @@
 
 use base::{AXES, Alarm, AxisSet, Place, Point};
 use dialect::GroupCodes;
-use syntax::Extent;
+use syntax::{Cursor, Extent};
 
 use crate::cycle::Holes;
 use crate::operation::{CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
@@ -103,6 +103,10 @@ pub struct Command {
     pub(crate) from_unknown: bool,
     /// The program it belongs to, with the cursor on the block after it.
     pub(crate) frame: Frame,
+    /// The cursor on the block itself.
+    pub(crate) here: Cursor,
+    /// It stands in a subprogram.
+    pub(crate) called: bool,
 }
 
 impl Command {

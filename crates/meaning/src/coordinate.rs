@@ -43,12 +43,14 @@ impl Reading<'_> {
 
     /// Applies G43, G44, G49 and H: the new length offset takes the place of the old one.
     ///
-    /// Returns by how much the length axis must move if its own word does not stand in the block.
+    /// Returns by how much the length axis must move if its own word does not stand in the block; what a block without
+    /// motion leaves over is due in the next one.
     pub fn change_length_offset(&mut self) -> Result<f64, Alarm> {
         let control = self.setting.control.as_ref();
         let written = self.groups_written & (1 << control.roles.length) != 0;
+        let due = self.next.length_due;
         if !written && !self.words.has(b'H') {
-            return Ok(0.0);
+            return Ok(due);
         }
         let factor = control.in_force(&self.next.groups, control.roles.length).and_then(Meaning::length_offset);
         let value = match factor {
@@ -66,9 +68,17 @@ impl Reading<'_> {
             }
             _ => 0.0,
         };
-        let change = value - self.next.length;
+        let change = value - self.next.length + due;
         self.next.length = value;
+        self.next.length_due = change;
         Ok(change)
+    }
+
+    /// The length axis has its place now: nothing of a changed offset is due any more.
+    pub fn length_axis_placed(&mut self, axis: usize) {
+        if Some(axis) == self.setting.length_axis {
+            self.next.length_due = 0.0;
+        }
     }
 
     /// A stored offset as it counts in the unit in force: policy `unit-change-offsets`.
@@ -95,6 +105,7 @@ impl Reading<'_> {
         let mut shown = [0.0; AXES];
         let mut origin = [0.0; AXES];
         for axis in axes.iter() {
+            self.length_axis_placed(axis);
             let (value, _) = self.axis_word(axis)?;
             shown[axis] = value;
             let machine = self.next.machine[axis];

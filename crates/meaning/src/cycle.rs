@@ -18,10 +18,10 @@ use crate::operation::{Feed, RapidKind};
 use crate::word::Words;
 use pattern::Places;
 
-/// What a cycle keeps from block to block: levels are program coordinates of Z, in counts.
+/// What a cycle keeps from block to block: R and bottom are program coordinates of Z, in counts.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct CycleData {
-    /// Z when the cycle mode was entered.
+    /// Z when the cycle mode was entered: machine coordinate without the length offset.
     pub initial: f64,
     /// The R level.
     pub r: Option<f64>,
@@ -114,18 +114,20 @@ pub(crate) fn needs_peck(cycle: Meaning) -> bool {
     matches!(cycle, Meaning::Peck | Meaning::HighSpeedPeck)
 }
 
-/// Takes the block's R, Z, Q and P into the cycle's data. `current` is Z in program coordinates.
+/// Takes the block's R, Z, Q and P (if `takes_dwell`) into the cycle's data.
 ///
-/// In incremental mode R counts from the initial level and Z from the R level; both are kept as absolute levels.
+/// `initial` is the initial level in program coordinates. In incremental mode R counts from the initial level and Z from the R level; both are kept as absolute levels.
 pub(crate) fn store(
     words: &Words,
     control: &dialect::Control,
     units: UnitSystem,
     absolute: bool,
+    takes_dwell: bool,
+    initial: f64,
     data: &mut CycleData,
 ) -> Result<(), base::Alarm> {
     if let Some(r) = words.length(control, b'R', units)? {
-        data.r = Some(if absolute { r } else { data.initial + r });
+        data.r = Some(if absolute { r } else { initial + r });
     }
     if let Some(z) = words.length(control, b'Z', units)? {
         data.bottom = match (absolute, data.r) {
@@ -137,7 +139,8 @@ pub(crate) fn store(
     if let Some(q) = words.length(control, b'Q', units)? {
         data.peck = q.abs();
     }
-    if words.has(b'P')
+    if takes_dwell
+        && words.has(b'P')
         && let Some(seconds) = words.seconds(control, b'P')?
     {
         data.dwell = seconds;

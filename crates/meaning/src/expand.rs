@@ -152,7 +152,9 @@ impl Expansion {
             match phase {
                 0 | 1 => {
                     let mut place = holes.places.at(self.hole);
-                    place[axis] = self.position[axis];
+                    if holes.cycle.is_some() {
+                        place[axis] = self.position[axis];
+                    }
                     if phase == 0 {
                         match approach(&self.position, &place, &holes.approach) {
                             Some(from_side) => place = from_side,

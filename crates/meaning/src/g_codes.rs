@@ -23,11 +23,12 @@ impl Reading<'_> {
                 continue;
             }
             let row = self.g_row(word)?;
-            if count < MOST_G {
-                rows[count] = row;
-                places[count] = index;
-                count += 1;
+            if count == MOST_G {
+                return Err(self.words.alarm_at(Condition::BlockTooLong, word).with([MOST_G as f64, 0.0, 0.0]));
             }
+            rows[count] = row;
+            places[count] = index;
+            count += 1;
             let Some(code) = control.g_codes.get(usize::from(row)) else { continue };
             match code.group {
                 Some(group) => {
@@ -84,7 +85,9 @@ impl Reading<'_> {
         for (index, _) in control.groups.iter().enumerate() {
             let unbuilt = match control.in_force(&self.next.groups, index) {
                 Some(ScalingOn | RotationOn | ModalMacroCall) => true,
-                Some(Meaning::StrokeCheckOn) => self.words.has_any(letter_bit(b'X') | letter_bit(b'I')),
+                Some(Meaning::StrokeCheckOn) => {
+                    self.words.has_any(b"XYZIJK".iter().fold(0, |set, &letter| set | letter_bit(letter)))
+                }
                 Some(code) if code.is_cycle() => crate::cycle::steps_of(code).is_none(),
                 _ => false,
             };

@@ -16,6 +16,7 @@ use crate::setting::Setting;
 use crate::state::State;
 use crate::supply::WINDOW;
 use crate::unknown::letter_bit;
+use syntax::Cursor;
 
 /// The interpreter of one control.
 ///
@@ -83,8 +84,13 @@ impl Interpreter {
 
     /// Chooses the program to run, from its head. `name` is its name unless an O word gives it one.
     pub fn select(&mut self, source: SourceId, name: &str) {
+        self.select_at(source, name, Cursor::HEAD);
+    }
+
+    /// Chooses a program that begins at `head` in its text.
+    pub fn select_at(&mut self, source: SourceId, name: &str, head: Cursor) {
         self.drop_queue();
-        self.reader.select(source, name);
+        self.reader.select(source, name, head);
         self.started = false;
     }
 
@@ -234,7 +240,8 @@ impl Interpreter {
 
     /// Fills the queue to the control's depth: the block to execute and those read ahead of it.
     fn read_ahead(&mut self) -> Option<Barrier> {
-        let depth = self.reader.setting.control.read_ahead[0] + 1;
+        // Checking on, a block must be judged by the later stages before the next one is read.
+        let depth = if self.reader.goes_on { 1 } else { self.reader.setting.control.read_ahead[0] + 1 };
         while self.queue.len() < depth && !self.queue.back().is_some_and(|command| command.stops_reading) {
             match self.reader.read(self.queue.slot()) {
                 Read::Command => {
@@ -315,9 +322,9 @@ impl Interpreter {
     /// RESET: the queue is dropped, the executing block's state restored, the reset table applied.
     ///
     /// `machine` is where the axes really stand (mm, degrees). The program goes on with the block after the executing
-    /// one, or from its head (policy `reset-pointer`).
-    pub fn reset(&mut self, machine: &Point) {
-        self.restore(machine);
+    /// one, with that block itself if it was `refused`, or from its head (policy `reset-pointer`).
+    pub fn reset(&mut self, machine: &Point, refused: bool) {
+        self.restore(machine, refused);
         let setting = &self.reader.setting;
         let state = &mut self.reader.state;
         let cycle = setting.control.roles.cycle;
@@ -330,15 +337,15 @@ impl Interpreter {
     }
 
     /// Drops what was read and not executed: the state is that of the executing block, the axes stand at `machine`.
-    pub fn restore(&mut self, machine: &Point) {
+    fn restore(&mut self, machine: &Point, refused: bool) {
         let state = *self.executing_state();
-        let frame = self.queue.front().filter(|command| command.place.line > 0).map(|command| command.frame);
+        let command = self.queue.front().filter(|command| command.place.line > 0).copied();
         self.drop_queue();
         self.reader.state = state;
         self.reader.stand_at(to_counts(machine));
         let stays = self.reader.setting.fitting.policies.reset_pointer == ResetPointer::Stays;
-        match frame {
-            Some(frame) if stays => self.reader.go_to(&frame),
+        match command {
+            Some(command) if stays => self.reader.go_to(&command, refused),
             _ => self.reader.rewind(),
         }
         self.started = false;

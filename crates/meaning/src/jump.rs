@@ -4,6 +4,8 @@
 //! text, then outside (a barrier). A sequence number is looked for within one program, from the block after the jump to
 //! its end, then from its head; the first match wins. What was found is kept, so the block that jumps is read again.
 
+use std::collections::BTreeMap;
+
 use base::{Condition, ProgramId, SourceId};
 use syntax::{Block, Cursor, Grammar, Outcome, Value, Word, read_block};
 
@@ -31,6 +33,8 @@ pub(crate) struct Found {
 
 /// Targets remembered, the oldest forgotten first.
 const REMEMBERED: usize = 64;
+/// Programs whose places are remembered; a text with more is searched from there on each time.
+const INDEXED: usize = 65_536;
 
 /// The levels of calls, and what is known of jumps.
 pub(crate) struct Calls {
@@ -38,19 +42,68 @@ pub(crate) struct Calls {
     pub levels: usize,
     known: Vec<(Target, Option<Found>)>,
     oldest: usize,
+    pub index: ProgramIndex,
+}
+
+/// Where the programs of texts begin, as far as the texts have been read for them.
+#[derive(Default)]
+pub(crate) struct ProgramIndex {
+    programs: BTreeMap<(SourceId, u32), Found>,
+    read_to: BTreeMap<SourceId, (Cursor, bool)>,
+}
+
+impl ProgramIndex {
+    fn find(&self, source: SourceId, number: u32) -> Option<Found> {
+        self.programs.get(&(source, number)).copied()
+    }
+
+    /// From where on a text is still to be read, and whether a block that is not blank lies before.
+    fn read_to(&self, source: SourceId) -> (Cursor, bool) {
+        self.read_to.get(&source).copied().unwrap_or((Cursor::HEAD, false))
+    }
+
+    /// Takes the program of a block in, the first of a number counting, and notes how far the text has been read.
+    fn take(&mut self, found: Option<(u32, Found)>, source: SourceId, next: Cursor, passed: bool) {
+        if self.programs.len() < INDEXED {
+            if let Some((number, found)) = found {
+                self.programs.entry((source, number)).or_insert(found);
+            }
+            let read_to = self.read_to.entry(source).or_default();
+            if next.offset > read_to.0.offset {
+                *read_to = (next, passed);
+            }
+        }
+    }
 }
 
 impl Calls {
     pub fn new(levels: usize) -> Calls {
-        Calls { frames: Vec::with_capacity(levels + 1), levels, known: Vec::with_capacity(REMEMBERED), oldest: 0 }
+        Calls {
+            frames: Vec::with_capacity(levels + 1),
+            levels,
+            known: Vec::with_capacity(REMEMBERED),
+            oldest: 0,
+            index: ProgramIndex::default(),
+        }
     }
 
     /// The answer to a target, if it has been looked for; the inner `None` is "nowhere".
     pub fn lookup(&self, target: &Target) -> Option<Option<Found>> {
+        if let Target::Program { number, from } = *target
+            && let Some(found) = self.index.find(from, number)
+        {
+            return Some(Some(found));
+        }
         self.known.iter().find(|(known, _)| known == target).map(|&(_, found)| found)
     }
 
     pub fn remember(&mut self, target: Target, found: Option<Found>) {
+        if let (Target::Program { number, from }, Some(found)) = (target, found)
+            && self.index.programs.len() < INDEXED
+        {
+            self.index.programs.insert((from, number), found);
+            return;
+        }
         if self.known.len() < REMEMBERED {
             self.known.push((target, found));
         } else {
@@ -62,6 +115,7 @@ impl Calls {
     pub fn forget(&mut self) {
         self.known.clear();
         self.oldest = 0;
+        self.index = ProgramIndex::default();
     }
 
     pub fn top(&self) -> Option<&Frame> {
@@ -121,6 +175,14 @@ impl Reading<'_> {
     }
 }
 
+/// The program that begins with this block, if one does.
+fn program_of(source: SourceId, names: &mut Names, block: &Block) -> Option<(u32, Found)> {
+    let first = block.words.first().filter(|word| word.letter == b'O')?;
+    let Value::Number(number) = first.value else { return None };
+    let number = number.integer().and_then(|number| u32::try_from(number).ok())?;
+    Some((number, Found { source, program: names.numbered(number), cursor: block.start }))
+}
+
 /// Where a search is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Stage {
@@ -154,12 +216,12 @@ pub(crate) enum Progress {
 
 impl Search {
     /// Begins a search; `main` is the main program's source, `program` the program a sequence number belongs to.
-    pub fn new(target: Target, main: SourceId, program: ProgramId) -> Search {
-        let (stage, cursor) = match target {
-            Target::Program { from, .. } => (Stage::Scan(from), Cursor::HEAD),
-            Target::Sequence { source, from, .. } => (Stage::Scan(source), from),
+    pub fn new(target: Target, main: SourceId, program: ProgramId, index: &ProgramIndex) -> Search {
+        let (stage, (cursor, passed)) = match target {
+            Target::Program { from, .. } => (Stage::Scan(from), index.read_to(from)),
+            Target::Sequence { source, from, .. } => (Stage::Scan(source), (from, false)),
         };
-        Search { target, main, stage, cursor, passed: false, from_head: false, program }
+        Search { target, main, stage, cursor, passed, from_head: false, program }
     }
 
     pub fn target(&self) -> Target {
@@ -171,8 +233,7 @@ impl Search {
         match source {
             Some(source) => {
                 self.stage = Stage::Brought(source);
-                self.cursor = Cursor::HEAD;
-                self.passed = false;
+                (self.cursor, self.passed) = (Cursor::HEAD, false);
                 true
             }
             None => false,
@@ -186,6 +247,7 @@ impl Search {
         grammar: &Grammar,
         names: &mut Names,
         block: &mut Block,
+        index: &mut ProgramIndex,
     ) -> Progress {
         loop {
             let source = match (self.stage, self.target) {
@@ -201,6 +263,10 @@ impl Search {
                 Outcome::Block => {
                     let tape_end = block.rewind && self.passed;
                     self.passed |= !block.is_empty() && !block.rewind;
+                    if let Target::Program { .. } = self.target {
+                        let program = program_of(source, names, block);
+                        index.take(program, source, if tape_end { self.cursor } else { block.next }, self.passed);
+                    }
                     if let Some(found) = self.matches(source, names, block) {
                         return Progress::Done(Some(found));
                     }
@@ -209,7 +275,7 @@ impl Search {
                     tape_end || self.section_ends(here, block)
                 }
             };
-            if ended && let Some(done) = self.end_of_text(source, names) {
+            if ended && let Some(done) = self.end_of_text(source, names, index) {
                 return done;
             }
         }
@@ -223,8 +289,7 @@ impl Search {
         };
         match self.target {
             Target::Program { number, .. } => {
-                let is_it = first.letter == b'O' && number_of(first) == Some(i64::from(number));
-                is_it.then(|| Found { source, program: names.numbered(number), cursor: block.start })
+                program_of(source, names, block).filter(|(found, _)| *found == number).map(|(_, found)| found)
             }
             Target::Sequence { number, .. } => {
                 let is_it = first.letter == b'N' && number_of(first) == Some(i64::from(number));
@@ -244,7 +309,7 @@ impl Search {
     }
 
     /// The scan has come to an end without a match: what next.
-    fn end_of_text(&mut self, source: SourceId, names: &mut Names) -> Option<Progress> {
+    fn end_of_text(&mut self, source: SourceId, names: &mut Names, index: &ProgramIndex) -> Option<Progress> {
         match (self.target, self.stage) {
             (Target::Sequence { head, .. }, _) => {
                 if self.from_head {
@@ -254,10 +319,12 @@ impl Search {
                 self.cursor = head;
                 self.passed = false;
             }
-            (Target::Program { .. }, Stage::Scan(scanned)) if scanned != self.main => {
+            (Target::Program { number, .. }, Stage::Scan(scanned)) if scanned != self.main => {
+                if let Some(found) = index.find(self.main, number) {
+                    return Some(Progress::Done(Some(found)));
+                }
                 self.stage = Stage::Scan(self.main);
-                self.cursor = Cursor::HEAD;
-                self.passed = false;
+                (self.cursor, self.passed) = index.read_to(self.main);
             }
             (Target::Program { .. }, Stage::Scan(_)) => self.stage = Stage::Asked,
             (Target::Program { number, .. }, Stage::Brought(_)) => {

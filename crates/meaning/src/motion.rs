@@ -12,6 +12,7 @@ use crate::position_offset::PositionOffset;
 impl Reading<'_> {
     /// Where an axis' word leads, machine coordinates.
     pub fn target(&mut self, axis: usize) -> Result<f64, Alarm> {
+        self.length_axis_placed(axis);
         let (value, minus) = self.axis_word(axis)?;
         let now = self.next.machine[axis];
         let mut target = if self.absolute {
@@ -49,12 +50,15 @@ impl Reading<'_> {
             to[axis] = self.target(axis)?;
             moved.add(axis);
         }
+        let changes = self.words.has(b'H') || self.groups_written & (1 << self.control().roles.length) != 0;
         if self.length_change != 0.0
+            && (changes || !named.is_empty())
             && let Some(axis) = self.setting.length_axis
             && !named.has(axis)
         {
             to[axis] += self.length_change;
             moved.add(axis);
+            self.next.length_due = 0.0;
         }
         Ok((to, moved))
     }
@@ -104,6 +108,7 @@ impl Reading<'_> {
         let mut to = self.next.machine;
         for axis in axes.iter() {
             to[axis] = self.axis_word(axis)?.0;
+            self.length_axis_placed(axis);
             self.next.displacement[axis] = 0.0;
         }
         let roles = self.setting.control.roles;
@@ -175,8 +180,11 @@ impl Reading<'_> {
         let letters = plane.centre_letters();
         let has_center = self.words.has(letters[0]) || self.words.has(letters[1]);
         let has_radius = self.words.has(b'R');
-        if !has_center && !has_radius && self.axes_named()?.is_empty() && self.length_change == 0.0 {
+        if !has_center && !has_radius && self.axes_named()?.is_empty() && !self.words.has(b'H') {
             return Ok(());
+        }
+        if self.length_change != 0.0 && (has_center || has_radius || !self.axes_named()?.is_empty()) {
+            return Err(self.words.alarm(Condition::LengthOffsetWithArc, b'H'));
         }
         let axes = plane.letters().map(|letter| self.setting.facts.axis(letter));
         let [Some(u), Some(v)] = axes else { return Err(self.motion_alarm(Condition::AddressUnavailable)) };

@@ -1,5 +1,7 @@
 //! Programs by name, and the levels of calls.
 
+use std::collections::BTreeMap;
+
 use base::{ProgramId, SourceId};
 use syntax::Cursor;
 
@@ -7,15 +9,18 @@ use syntax::Cursor;
 #[derive(Default)]
 pub(crate) struct Names {
     names: Vec<String>,
+    by_name: BTreeMap<String, u32>,
 }
 
 impl Names {
     pub fn intern(&mut self, name: &str) -> ProgramId {
-        let index = self.names.iter().position(|known| known == name).unwrap_or_else(|| {
-            self.names.push(name.to_owned());
-            self.names.len() - 1
-        });
-        ProgramId(index as u32)
+        if let Some(&index) = self.by_name.get(name) {
+            return ProgramId(index);
+        }
+        let index = self.names.len() as u32;
+        self.names.push(name.to_owned());
+        self.by_name.insert(name.to_owned(), index);
+        ProgramId(index)
     }
 
     pub fn numbered(&mut self, number: u32) -> ProgramId {

@@ -71,10 +71,9 @@ impl Reader {
         }
     }
 
-    /// Puts the reader at the head of a program; `name` is used if no O word names it.
-    pub fn select(&mut self, source: SourceId, name: &str) {
+    /// Puts the reader at the head of a program, which begins at `head` in its text; `name` is used if no O word names it.
+    pub fn select(&mut self, source: SourceId, name: &str, head: Cursor) {
         let program = self.names.intern(name);
-        let head = Cursor::HEAD;
         self.calls.frames.clear();
         self.calls.frames.push(Frame { program, source, head, cursor: head, begun: false, opened: false, repeats: 0 });
         self.rewind();
@@ -95,11 +94,17 @@ impl Reader {
         self.repetition = Repetition::default();
     }
 
-    /// Goes on at the block after a command, with nothing called.
-    pub fn go_to(&mut self, frame: &Frame) {
+    /// Goes on in the main program at the block after a command, or (`again`) with that block once more.
+    ///
+    /// A command of a subprogram has no way back to its caller any more: the main program's head is next.
+    pub fn go_to(&mut self, command: &Command, again: bool) {
         self.rewind();
-        self.calls.frames.clear();
-        self.calls.frames.push(Frame { repeats: 0, begun: true, ..*frame });
+        if !command.called
+            && let Some(main) = self.calls.frames.first_mut()
+        {
+            main.cursor = if again { command.here } else { command.frame.cursor };
+            main.begun = main.cursor.offset > main.head.offset && !(again && command.here.offset == main.head.offset);
+        }
     }
 
     /// Reads on after a program's end.
@@ -170,7 +175,7 @@ impl Reader {
     fn search_on(&mut self) -> Option<Read> {
         let search = self.search.as_mut()?;
         let grammar = self.setting.control.grammar;
-        match search.advance(&mut self.supply, &grammar, &mut self.names, &mut self.block) {
+        match search.advance(&mut self.supply, &grammar, &mut self.names, &mut self.block, &mut self.calls.index) {
             Progress::NeedBytes { source, offset } => Some(Read::NeedBytes { source, offset }),
             Progress::NeedProgram { number } => Some(Read::NeedProgram { number }),
             Progress::Done(found) => {
@@ -241,7 +246,7 @@ impl Reader {
                 let main = self.calls.frames.first().map_or(frame.source, |main| main.source);
                 let levels = self.calls.frames.len();
                 let goal = self.calls.frames.get(levels.saturating_sub(2)).map_or(program, |goal| goal.program);
-                self.search = Some(Search::new(target, main, goal));
+                self.search = Some(Search::new(target, main, goal, &self.calls.index));
                 None
             }
             Err(Refusal::Alarm(alarm)) => {
@@ -257,6 +262,8 @@ impl Reader {
             frame.begun = true;
             command.frame = *frame;
         }
+        command.here = self.block.start;
+        command.called = self.calls.frames.len() > 1;
     }
 
     fn prepare(&self, command: &mut Command, place: Place) {
@@ -384,6 +391,16 @@ impl Reader {
         unknown
     }
 
+    /// True if the block at hand is to set the base work system.
+    fn sets_coordinates(&self) -> bool {
+        self.block.words.iter().any(|word| {
+            let Value::Number(number) = word.value else { return false };
+            let row = number.integer().and_then(|code| self.setting.control.g_row(code));
+            let code = row.and_then(|row| self.setting.control.g_codes.get(usize::from(row)));
+            word.letter == b'G' && code.is_some_and(|code| code.meaning == dialect::Meaning::SetCoordinates)
+        })
+    }
+
     fn forget_what_it_names(&mut self) {
         let mut unknown = self.state.unknown;
         for word in &self.block.words {
@@ -394,6 +411,11 @@ impl Reader {
                 Some(group) => unknown.groups |= 1 << group,
                 None => unknown.words |= letter_bit(word.letter),
             }
+        }
+        if self.sets_coordinates() {
+            let named = self.block.words.iter().filter_map(|word| self.setting.facts.axis(word.letter));
+            named.for_each(|axis| unknown.origins.add(axis));
+            unknown.groups |= 1 << self.setting.control.roles.work;
         }
         self.state.unknown = unknown;
     }
@@ -420,6 +442,8 @@ impl Reader {
         command.after = self.state;
         command.side = Side::Off;
         command.frame = *frame;
+        command.here = frame.cursor;
+        command.called = self.calls.frames.len() > 1;
         self.ended = true;
         Read::Command
     }
@@ -449,5 +473,7 @@ pub(crate) fn empty_command(state: &State) -> Command {
         absolute: AxisSet::NONE,
         from_unknown: false,
         frame: Frame::default(),
+        here: Cursor::HEAD,
+        called: false,
     }
 }

@@ -45,6 +45,8 @@ pub struct State {
     pub universal_zero: Point,
     /// Length offset applied to the length axis.
     pub length: f64,
+    /// What the length axis has yet to move because of a changed offset: no block since has moved it.
+    pub length_due: f64,
     /// Displacement left by tool position offsets.
     pub displacement: Point,
     /// Data of the canned cycle.
@@ -69,6 +71,7 @@ impl State {
             common_shift: [0.0; AXES],
             universal_zero: [0.0; AXES],
             length: 0.0,
+            length_due: 0.0,
             displacement: [0.0; AXES],
             cycle: CycleData::default(),
             unknown: Unknown::default(),

@@ -11,6 +11,8 @@ use dialect::Roles;
 pub struct Unknown {
     /// Axes whose position is unknown.
     pub axes: AxisSet,
+    /// Axes on which the base work system's origin is unknown.
+    pub origins: AxisSet,
     /// Modal groups whose code is unknown, one bit each.
     pub groups: u32,
     /// Words whose value is unknown, one bit a letter.
@@ -20,7 +22,7 @@ pub struct Unknown {
 impl Unknown {
     /// True if everything is known.
     pub const fn is_nothing(self) -> bool {
-        self.axes.is_empty() && self.groups == 0 && self.words == 0
+        self.axes.is_empty() && self.origins.is_empty() && self.groups == 0 && self.words == 0
     }
 
     /// True if the code of this group is unknown.

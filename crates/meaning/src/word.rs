@@ -5,7 +5,7 @@ use dialect::{Address, Control};
 use syntax::{Block, Value, Word};
 
 /// Most G codes looked at in one block.
-pub(crate) const MOST_G: usize = 16;
+pub(crate) const MOST_G: usize = 64;
 const NO_WORD: u8 = u8::MAX;
 
 /// Why a block is not carried out now.

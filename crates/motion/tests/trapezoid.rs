@@ -2,14 +2,11 @@
 
 use motion::Trapezoid;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 /// Relative error of a few operations on doubles.
 const ROUNDING: f64 = 1e-12;
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
-
     #[test]
     fn limits_are_kept_and_the_way_is_covered(distance in 1e-6f64..1e5, speed in 1e-3f64..1e3, acceleration in 1.0f64..1e5) {
         let profile = Trapezoid::new(distance, speed, acceleration);

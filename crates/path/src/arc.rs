@@ -26,6 +26,8 @@ pub struct Arc {
     pub sweep: f64,
 }
 
+/// An end less than this beside the ray from the centre through the start, mm, lies on it: far below any increment.
+const ON_THE_RAY: f64 = 1e-7;
 /// Turns of the fixed-point search for a spiral's extreme; it gains several digits each.
 const SEARCH_STEPS: usize = 12;
 
@@ -40,7 +42,9 @@ impl Arc {
         } else {
             let cross = start[0] * end[1] - start[1] * end[0];
             let dot = start[0] * end[0] + start[1] * end[1];
-            let turn = libm::atan2(cross, dot);
+            let beside = cross / libm::hypot(start[0], start[1]);
+            // On the ray itself rounding must not choose between a full turn and none: it is a turn.
+            let turn = if dot > 0.0 && beside.abs() < ON_THE_RAY { 0.0 } else { libm::atan2(cross, dot) };
             match arc.clockwise {
                 true if turn >= 0.0 => turn - TAU,
                 false if turn <= 0.0 => turn + TAU,
@@ -103,13 +107,14 @@ impl Arc {
         (plane * plane + others).sqrt()
     }
 
-    /// The fractions of the sweep at which the plane's axes turn round, in order; at most ten.
+    /// The fractions of the sweep at which the plane's axes turn round, in order; at most seven.
     fn turning_points(&self) -> impl Iterator<Item = f64> {
         let quarter = TAU / 4.0;
         let direction = self.sweep.signum();
         let first =
             if direction > 0.0 { (self.start_angle / quarter).ceil() } else { (self.start_angle / quarter).floor() };
-        (0..5).filter_map(move |step| {
+        // A spiral turns beside its quadrants, so the one before the start and the one after the end count too.
+        (-1..6).filter_map(move |step| {
             let quadrant = (first + direction * f64::from(step)) * quarter;
             let mut s = (quadrant - self.start_angle) / self.sweep;
             // On a spiral the turn lies where tan(offset) = r'/r, beside the quadrant.
@@ -209,6 +214,15 @@ mod tests {
         assert!((spiral.plane_length() - length).abs() < 1e-6, "{} {length}", spiral.plane_length());
         assert!((high[1] - most).abs() < 1e-7, "{} {most}", high[1]);
         assert_eq!((low[0], high[0]), (-4.0, 10.0));
+    }
+
+    #[test]
+    fn a_spiral_that_ends_on_its_start_ray_turns_once_wherever_it_lies() {
+        for shift in 0..500 {
+            let at = f64::from(shift) / 10.0;
+            let spiral = arc([300.0 + at, 400.0, 0.0], [600.0 + at, 800.0, 0.0], [at, 0.0], false);
+            assert_eq!(spiral.sweep, TAU, "{at}");
+        }
     }
 
     #[test]

@@ -79,6 +79,8 @@ pub struct Path {
     pub upstream: Interpreter,
     position: Point,
     compensation: Compensation,
+    /// Where the axes are is doubtful: a move was refused, and checking goes on.
+    doubtful: bool,
     /// The shape handed out last.
     shaped: Shaped,
 }
@@ -86,13 +88,14 @@ pub struct Path {
 impl Path {
     /// The stage behind an interpreter, its axes standing at `position` (mm, degrees).
     pub fn new(upstream: Interpreter, position: Point) -> Path {
-        Path { upstream, position, compensation: Compensation::default(), shaped: Shaped::default() }
+        Path { upstream, position, compensation: Compensation::default(), doubtful: false, shaped: Shaped::default() }
     }
 
     /// The axes stand here, whatever was under way (mm, degrees).
     pub fn stand_at(&mut self, position: &Point) {
         self.position = *position;
         self.compensation = Compensation::default();
+        self.doubtful = false;
     }
 
     /// Answers the interpreter's open barrier.
@@ -106,14 +109,14 @@ impl Path {
     /// The next shape. It stays as it is until the next call.
     #[expect(clippy::should_implement_trait, reason = "a pull has barriers, which an iterator does not")]
     pub fn next(&mut self) -> Pull<&Shaped> {
-        let Path { upstream, position, compensation, shaped } = self;
+        let Path { upstream, position, compensation, doubtful, shaped } = self;
         loop {
             let operation = match upstream.next() {
                 Pull::Item(operation) => operation,
                 Pull::Barrier(barrier) => return Pull::Barrier(barrier),
                 Pull::End => return Pull::End,
             };
-            if shape(operation, position, compensation, shaped) {
+            if shape(operation, position, compensation, doubtful, shaped) {
                 return Pull::Item(shaped);
             }
         }
@@ -126,7 +129,13 @@ impl Path {
 }
 
 /// Writes the operation's shape; false for a move of no length.
-fn shape(operation: &Operation, position: &mut Point, compensation: &mut Compensation, shaped: &mut Shaped) -> bool {
+fn shape(
+    operation: &Operation,
+    position: &mut Point,
+    compensation: &mut Compensation,
+    doubtful: &mut bool,
+    shaped: &mut Shaped,
+) -> bool {
     let from = *position;
     let to = match operation.act {
         Act::Rapid { to, kind } => {
@@ -175,13 +184,17 @@ fn shape(operation: &Operation, position: &mut Point, compensation: &mut Compens
         Shape::Rapid { .. } | Shape::Line { .. } => differing(&from, &to),
         _ => return true,
     };
-    if moving.is_empty() && !operation.from_unknown {
+    if moving.is_empty() && !operation.from_unknown && !*doubtful {
         return false;
     }
     match compensation.judge(operation.side, moving, operation.plane, &operation.place) {
-        Verdict::Pass => {}
-        Verdict::Uncertain => shaped.certain = false,
+        Verdict::Pass => *doubtful = false,
+        Verdict::Uncertain => {
+            shaped.certain = false;
+            *doubtful = true;
+        }
         Verdict::Refuse(alarm) => {
+            *doubtful = true;
             shaped.shape = Shape::Alarm(alarm);
             return true;
         }

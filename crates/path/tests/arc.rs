@@ -4,16 +4,11 @@ use base::{AXES, AxisSet, Point};
 use meaning::{ArcMove, Plane};
 use path::Arc;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 /// Positions along an arc of up to a few metres, mm.
 const EXACTNESS_MM: f64 = 1e-9;
 /// Points at which an arc is looked at.
 const SAMPLES: i32 = 500;
-
-fn config() -> ProptestConfig {
-    ProptestConfig { rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() }
-}
 
 fn coordinate() -> impl Strategy<Value = f64> + Clone {
     // Whole thousandths, as programs write them, and often the same ones.
@@ -55,8 +50,6 @@ fn plane_distance(arc: &Arc, a: &Point, b: &Point) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(config())]
-
     #[test]
     fn it_begins_and_ends_where_it_says_and_turns_the_way_it_says(arc in arc()) {
         prop_assert_eq!(arc.at(0.0), arc.from);
@@ -107,7 +100,9 @@ proptest! {
         prop_assert_eq!(arc.first_exit(axes, &low_wide, &high), None);
         // A border between the start and the furthest point is crossed, and up to there it is not.
         high[axis] = arc.from[axis] + (reach - arc.from[axis]) * part;
-        prop_assume!(reach - high[axis] > 1e-6 && high[axis] >= arc.from[axis]);
+        if reach - high[axis] <= 1e-6 || high[axis] < arc.from[axis] {
+            return Ok(()); // it does not go that way
+        }
         let exit = arc.first_exit(axes, &low_wide, &high);
         prop_assert!(exit.is_some());
         if let Some((s, which)) = exit {

@@ -99,8 +99,21 @@ impl Configuration {
         for setup in setups {
             configuration.apply(setup)?;
         }
+        configuration.check_start()?;
         configuration.fitting.check_options(&configuration.control).map_err(|error| wrong(error.0))?;
         Ok(configuration)
+    }
+
+    /// The axes cannot stand where they cannot get to.
+    fn check_start(&self) -> Result<(), ConfigurationError> {
+        for (axis, &at) in self.machine.axes.iter().zip(&self.start) {
+            let [low, high] = axis.travel;
+            if at < low || at > high {
+                let letter = char::from(axis.letter);
+                return Err(wrong(format!("start {letter} = {at} lies outside the axis' travel {low} to {high}")));
+            }
+        }
+        Ok(())
     }
 
     /// What the machine's axes say of the control's options: a fourth axis, an axis B.

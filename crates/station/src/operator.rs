@@ -2,6 +2,7 @@
 
 use base::SourceId;
 use machine::{Event, EventKind, ResetCause};
+use syntax::Cursor;
 
 use crate::library::{Library, LibraryError};
 use crate::script::{Action, Show, Until};
@@ -34,6 +35,17 @@ pub enum Shown {
     State,
 }
 
+/// A program in the control's memory.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Loaded {
+    /// The text it stands in.
+    pub source: SourceId,
+    /// Its name.
+    pub name: String,
+    /// Where it begins in that text.
+    pub head: Cursor,
+}
+
 /// An operator at a session's panel.
 pub struct Operator<L> {
     /// The session.
@@ -55,7 +67,7 @@ impl<L: Library> Operator<L> {
     pub fn perform(
         &mut self,
         action: &Action,
-        find: impl FnOnce(&mut L, &str) -> Option<(SourceId, String)>,
+        find: impl FnOnce(&mut L, &str) -> Option<Loaded>,
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<(), LibraryError> {
         let refusal = match action {
@@ -92,14 +104,14 @@ impl<L: Library> Operator<L> {
         Ok(())
     }
 
-    fn select(&mut self, name: &str, find: impl FnOnce(&mut L, &str) -> Option<(SourceId, String)>) -> Option<String> {
+    fn select(&mut self, name: &str, find: impl FnOnce(&mut L, &str) -> Option<Loaded>) -> Option<String> {
         if self.session.is_running() {
             return Some("a program is running".to_owned());
         }
         match find(self.session.library_mut(), name) {
-            Some((source, name)) => {
+            Some(Loaded { source, name, head }) => {
                 self.session.interpreter_mut().forget_texts();
-                self.session.select(source, &name);
+                self.session.select(source, &name, head);
                 self.selected = true;
                 None
             }

@@ -6,8 +6,8 @@ use base::{Alarm, AxisSet, Place, Point, Seconds};
 use dialect::MMeaning;
 use machine::{Event, EventKind, Machine, ResetCause, StopCause, VirtualMachine};
 use meaning::{Answer, BarrierKind, Close, EndKind, Interpreter, Pull, StopKind};
-use motion::Motion;
-use path::{Path, Shape};
+use motion::{Motion, Timed};
+use path::{Path, Shape, Shaped};
 
 use crate::configuration::{Configuration, Inputs};
 use crate::library::{Library, LibraryError};
@@ -48,6 +48,8 @@ pub struct Session<L> {
     after_alarm: AfterAlarm,
     repeats_main: bool,
     events: VecDeque<Event>,
+    /// Codes that begin a block, held until it is sure that the block is not refused.
+    codes: Vec<Shaped>,
     bytes: Vec<u8>,
     /// The next shape has been pulled and not yet executed.
     held: bool,
@@ -79,6 +81,7 @@ impl<L: Library> Session<L> {
             after_alarm: AfterAlarm::Stand,
             repeats_main: false,
             events: VecDeque::with_capacity(32),
+            codes: Vec::with_capacity(16),
             bytes: Vec::new(),
             held: false,
             told: None,
@@ -156,9 +159,9 @@ impl<L: Library> Session<L> {
         self.stopped
     }
 
-    /// Chooses the program to run.
-    pub fn select(&mut self, source: base::SourceId, name: &str) {
-        self.interpreter_mut().select(source, name);
+    /// Chooses the program to run, which begins at `head` in its text.
+    pub fn select(&mut self, source: base::SourceId, name: &str, head: syntax::Cursor) {
+        self.interpreter_mut().select_at(source, name, head);
         self.held = false;
         self.told = None;
         self.rewound = true;
@@ -218,8 +221,10 @@ impl<L: Library> Session<L> {
         let position = *self.machine.position();
         let place = self.place();
         self.machine.drop_codes();
+        self.codes.clear();
         self.motion.upstream.stand_at(&position);
-        self.interpreter_mut().reset(&position);
+        let refused = self.alarm.is_some();
+        self.interpreter_mut().reset(&position, refused);
         self.held = false;
         self.told = None;
         self.alarm = None;
@@ -326,17 +331,37 @@ impl<L: Library> Session<L> {
         let (place, stop_point) = (shaped.place, shaped.stop_point);
         match shaped.shape {
             Shape::Alarm(alarm) => return self.raise(alarm),
-            Shape::Close(close) => return self.close(close, place),
+            Shape::Close(close) => {
+                self.send_codes();
+                return self.close(close, place);
+            }
+            Shape::Code(code) if !code.after_motion => return self.codes.push(*shaped),
             _ => {}
         }
         if self.after_alarm == AfterAlarm::GoOn {
             self.pass_unknown();
+        }
+        if !self.codes.is_empty() {
+            if let Err(refusal) = self.machine.check(&self.motion.current()) {
+                return self.raise(self.at_the_word(refusal.alarm));
+            }
+            self.send_codes();
         }
         let events = &mut self.events;
         match self.machine.execute(&self.motion.current(), &mut |event| events.push_back(event)) {
             Ok(()) if stop_point && self.switches.single_block => self.stop(place, StopKind::SingleBlock),
             Ok(()) => {}
             Err(refusal) => self.raise(self.at_the_word(refusal.alarm)),
+        }
+    }
+
+    /// Sends the codes that begin the block.
+    fn send_codes(&mut self) {
+        let events = &mut self.events;
+        for shaped in self.codes.drain(..) {
+            let timed = Timed { shaped: &shaped, duration: Seconds(0.0), length: 0.0, feed: 0.0 };
+            // A code is no move, so the machine has nothing to refuse.
+            let _ = self.machine.execute(&timed, &mut |event| events.push_back(event));
         }
     }
 
@@ -359,6 +384,7 @@ impl<L: Library> Session<L> {
     }
 
     fn raise(&mut self, alarm: Alarm) {
+        self.codes.clear();
         self.tell(alarm.place, EventKind::Alarm(alarm));
         match self.after_alarm {
             AfterAlarm::Stand => self.alarm = Some(alarm),

@@ -9,10 +9,9 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::fmt::Write;
 
-use base::SourceId;
 use machine::EventKind;
 use station::{AfterAlarm, Session, Setup, Step};
-use watch::{Texts, configuration, machine};
+use watch::{Texts, configuration, machine, select};
 
 /// The system's allocator, counting each thread's calls that give memory.
 struct Counting;
@@ -68,7 +67,7 @@ fn program(lines: usize, line: impl Fn(usize) -> String) -> Vec<u8> {
 /// Allocations of a whole run of the text with this id, and how many blocks it had.
 fn allocations(session: &mut Session<Texts>, source: u32) -> (u64, u64) {
     let before = TAKEN.get();
-    session.select(SourceId(source), "part");
+    select(session, source);
     session.start();
     let mut blocks = 0;
     loop {

@@ -5,20 +5,20 @@
 mod programs;
 mod watch;
 
-use base::SourceId;
 use machine::{Event, EventKind, MachineFile};
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use station::{AfterAlarm, Session, Setup};
-use watch::{Expect, Texts, configuration, control, machine, run};
+use watch::{Expect, Texts, configuration, control, machine, run, select};
 
 /// Relative error of a time.
 const ROUNDING: f64 = 1e-9;
 /// Pieces in which an arc is looked at.
 const PIECES: i32 = 200;
 
+/// More than proptest's own number of cases: each is cheap.
 fn config() -> ProptestConfig {
-    ProptestConfig { cases: 1000, rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() }
+    let default = ProptestConfig::default();
+    ProptestConfig { cases: default.cases.max(1000), ..default }
 }
 
 /// A machine whose axes differ in everything, so that no limit hides behind another.
@@ -36,7 +36,7 @@ fn events(text: &str) -> Vec<Event> {
     let mut session = Session::new(configuration(uneven(), &Setup::default()), Texts::one(text));
     session.set_after_alarm(AfterAlarm::GoOn);
     session.interpreter_mut().set_loop_limit(100);
-    session.select(SourceId(0), "test");
+    select(&mut session, 0);
     run(&mut session, Expect { most_events: 2000, stays_inside: false })
 }
 

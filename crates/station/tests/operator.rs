@@ -8,8 +8,8 @@ use base::SourceId;
 use machine::EventKind;
 use proptest::prelude::*;
 use proptest::sample::select;
-use proptest::test_runner::RngSeed;
-use station::{Action, Operator, Said, Session, Setup, Show, Until};
+use station::{Action, Loaded, Operator, Said, Session, Setup, Show, Until};
+use syntax::Cursor;
 use watch::{Texts, Watch, configuration, machine};
 
 /// Programs with all that can hold one up, and (first) one that works whatever came before it.
@@ -25,8 +25,10 @@ const PROGRAMS: &[&str] = &[
     "M99P7\nN7M02\nN8G90G00X3.\nM99P8\n",
 ];
 
+/// More than proptest's own number of cases: each is cheap.
 fn config() -> ProptestConfig {
-    ProptestConfig { cases: 1000, rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() }
+    let default = ProptestConfig::default();
+    ProptestConfig { cases: default.cases.max(1000), ..default }
 }
 
 fn action() -> impl Strategy<Value = Action> {
@@ -67,8 +69,10 @@ impl Station {
 
     fn perform(&mut self, action: &Action) {
         let Station { operator, watch, events } = self;
-        let find =
-            |_: &mut Texts, name: &str| name.parse().ok().map(|index: u32| (SourceId(index), format!("P{index}")));
+        let find = |_: &mut Texts, name: &str| {
+            let index = name.parse().ok()?;
+            Some(Loaded { source: SourceId(index), name: format!("P{index}"), head: Cursor::HEAD })
+        };
         let mut tell = |session: &mut Session<Texts>, said: Said| {
             if let Said::Event(event) = said {
                 watch.see(&event, session);

@@ -8,19 +8,18 @@ mod watch;
 use base::SourceId;
 use machine::Event;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
-use station::{AfterAlarm, Configuration, OffsetColumn, Session, Setup};
-use watch::{Expect, Texts, configuration, control, machine, run};
+use station::{AfterAlarm, Configuration, OffsetColumn, Session, Setup, programs_in};
+use watch::{Expect, Texts, configuration, control, machine, run, select};
 
 /// Events after which a program counts as endless.
 const MOST_EVENTS: usize = 3000;
 /// Jumps without motion after which the control calls a program endless.
 const MOST_JUMPS: u64 = 300;
 
+/// At least so many cases; the environment can ask for more.
 fn config(cases: u32) -> ProptestConfig {
     let default = ProptestConfig::default();
-    let cases = cases.max(default.cases);
-    ProptestConfig { cases, rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..default }
+    ProptestConfig { cases: cases.max(default.cases), ..default }
 }
 
 /// How a program is run.
@@ -73,7 +72,7 @@ fn events(text: &[u8], pieces: &[usize], mode: Mode) -> Vec<Event> {
     let mut session = Session::new(set_up(mode), Texts::one(text).in_pieces(pieces));
     session.set_after_alarm(mode.after_alarm);
     session.interpreter_mut().set_loop_limit(MOST_JUMPS);
-    session.select(SourceId(0), "test");
+    select(&mut session, 0);
     run(&mut session, Expect { most_events: MOST_EVENTS, stays_inside: mode.after_alarm == AfterAlarm::Stand })
 }
 
@@ -103,6 +102,19 @@ proptest! {
     #[test]
     fn any_program_is_run(text in programs::program(&control()), pieces in pieces(), mode in mode()) {
         check(text.as_bytes(), &pieces, mode);
+    }
+}
+
+proptest! {
+    #[test]
+    fn the_programs_of_a_text_are_found_in_any_pieces(text in programs::program(&control()), pieces in pieces()) {
+        let grammar = control().grammar;
+        let whole = programs_in(&mut Texts::one(text.as_str()), SourceId(0), &grammar);
+        prop_assert_eq!(&programs_in(&mut Texts::one(text.as_str()).in_pieces(&pieces), SourceId(0), &grammar), &whole);
+        for (number, cursor) in whole.expect("texts in memory can be read") {
+            let here = &text.as_bytes()[cursor.offset as usize..];
+            prop_assert!(here.starts_with(b"O") || here.starts_with(b":"), "O{number} at {cursor:?}");
+        }
     }
 }
 

@@ -5,14 +5,8 @@
 mod reading;
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use reading::{characters, check_print, read_all, said};
 use syntax::{Block, Colon, Cursor, Grammar, LowerCase, Outcome, Semicolon, read_block};
-
-fn config() -> ProptestConfig {
-    // The same inputs on every machine; PROPTEST_CASES and PROPTEST_RNG_SEED ask for more and for others.
-    ProptestConfig { rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() }
-}
 
 fn grammar() -> impl Strategy<Value = Grammar> {
     (any::<bool>(), any::<bool>(), any::<bool>(), prop_oneof![Just(u32::MAX), Just(40u32), Just(128)]).prop_map(
@@ -61,8 +55,6 @@ fn check(text: &[u8], grammar: &Grammar, sizes: &[usize]) {
 }
 
 proptest! {
-    #![proptest_config(config())]
-
     #[test]
     fn any_bytes_are_read(text in prop::collection::vec(any::<u8>(), 0..300), grammar in grammar(), sizes in window_sizes()) {
         check(&text, &grammar, &sizes);

@@ -1,5 +1,6 @@
 //! `check`: every alarm the control would raise, of many programs, without motion.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +15,19 @@ use crate::output::{Output, colour_out};
 use crate::show_alarm::show_alarm;
 use crate::texts::looks_like_program;
 
+/// Findings that are remembered so as not to be said twice.
+const MOST_REMEMBERED: usize = 100_000;
+
 pub fn check(arguments: &CheckArguments) -> Result<bool, Failure> {
+    let mut found = 0;
+    match check_all(arguments, &mut found) {
+        // Whoever reads no further has still been told that there are alarms.
+        Err(Failure::PipeClosed) => Ok(found == 0),
+        outcome => outcome,
+    }
+}
+
+fn check_all(arguments: &CheckArguments, found: &mut u64) -> Result<bool, Failure> {
     let format = match arguments.format {
         FormatArgument::Text => Format::Text { colour: colour_out() },
         FormatArgument::Json => Format::Json,
@@ -23,7 +36,7 @@ pub fn check(arguments: &CheckArguments) -> Result<bool, Failure> {
     };
     let files = files(&arguments.files)?;
     let mut output = Output::new();
-    let mut found = 0u64;
+    let mut said = BTreeSet::new();
     output.buffer.extend_from_slice(begin(format).as_bytes());
     for file in &files {
         let mut session = open(file, &arguments.setting)?;
@@ -32,23 +45,31 @@ pub fn check(arguments: &CheckArguments) -> Result<bool, Failure> {
         session.set_after_alarm(AfterAlarm::GoOn);
         run_through(&mut session, arguments.setting.repeat, |session, event| {
             let EventKind::Alarm(alarm) = &event.kind else { return Ok(()) };
+            // A block that is executed again is not refused anew.
+            let key = (file.as_str(), alarm.place.source, alarm.span.start, alarm.condition.id());
+            if said.contains(&key) {
+                return Ok(());
+            }
+            if said.len() < MOST_REMEMBERED {
+                said.insert(key);
+            }
             let (diagnostic, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
-            if found > 0 {
+            if *found > 0 {
                 output.buffer.extend_from_slice(separator(format).as_bytes());
             }
-            found += 1;
+            *found += 1;
             output.buffer.extend_from_slice(render(&diagnostic, &excerpt, format).as_bytes());
             output.pass()
         })?;
     }
     output.buffer.extend_from_slice(end(format).as_bytes());
     if matches!(format, Format::Text { .. }) {
-        let gap = if found > 0 { "\n" } else { "" };
-        let line = format!("{gap}{}: {}\n", count(files.len() as u64, "program"), alarms(found));
+        let gap = if *found > 0 { "\n" } else { "" };
+        let line = format!("{gap}{}: {}\n", count(files.len() as u64, "program"), alarms(*found));
         output.buffer.extend_from_slice(line.as_bytes());
     }
     output.flush()?;
-    Ok(found == 0)
+    Ok(*found == 0)
 }
 
 fn count(number: u64, what: &str) -> String {
@@ -64,7 +85,7 @@ fn files(names: &[String]) -> Result<Vec<String>, Failure> {
     let mut files = Vec::new();
     for name in names {
         let path = Path::new(name);
-        if name == "-" || path.is_file() {
+        if name == "-" || (path.exists() && !path.is_dir()) {
             files.push(name.clone());
         } else if path.is_dir() {
             let before = files.len();
@@ -84,7 +105,7 @@ fn files(names: &[String]) -> Result<Vec<String>, Failure> {
             files.extend(found.into_iter().map(|path| path.to_string_lossy().into_owned()));
         }
     }
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = BTreeSet::new();
     files.retain(|file| seen.insert(file.clone()));
     Ok(files)
 }

@@ -5,14 +5,14 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 
-use base::SourceId;
 use machine::EventKind;
 use report::{Format, JsonLine, Tracer, render};
-use station::{Action, Operator, Said, Session, Shown, read_script};
+use station::{Action, Loaded, Operator, Said, Session, Shown, programs_in, read_script};
+use syntax::Cursor;
 
 use crate::arguments::OperateArguments;
 use crate::failure::Failure;
-use crate::output::{Output, colour_err};
+use crate::output::{Output, colour_err, say};
 use crate::setting;
 use crate::show_alarm::show_alarm;
 use crate::texts::Texts;
@@ -38,14 +38,14 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     let mut session = Session::new(configuration, setting::texts(name, &arguments.setting)?);
     session.interpreter_mut().set_loop_limit(arguments.setting.loop_limit);
     let mut operator = Operator::new(session);
-    let mut loaded: BTreeMap<String, (SourceId, String)> = BTreeMap::new();
+    let mut loaded: BTreeMap<String, Loaded> = BTreeMap::new();
     let mut output = Output::new();
     let mut failed = None;
     for (line, action) in &script {
         if let Action::Load(file, program) = action {
-            let (source, program) =
+            let programs =
                 load(&mut operator, name, file, program.as_deref()).map_err(|failure| at_line(name, *line, failure))?;
-            loaded.insert(program.clone(), (source, program));
+            loaded.extend(programs.into_iter().map(|program| (program.name.clone(), program)));
         }
         let find = |_: &mut Texts, program: &str| loaded.get(&normal_name(program)).cloned();
         let mut tell = |session: &mut Session<Texts>, said: Said| {
@@ -70,25 +70,41 @@ fn at_line(script: &str, line: usize, failure: Failure) -> Failure {
     }
 }
 
-/// Loads a program; a file not found from here is looked for beside the script.
+/// Loads a file into memory: every program that it holds. A file not found from here is looked for beside the script.
 fn load(
     operator: &mut Operator<Texts>,
     script: &str,
     file: &str,
     program: Option<&str>,
-) -> Result<(SourceId, String), Failure> {
+) -> Result<Vec<Loaded>, Failure> {
     let beside = Path::new(script).parent().map(|folder| folder.join(file));
     let path = match beside {
         Some(beside) if !Path::new(file).exists() && beside.exists() => beside.to_string_lossy().into_owned(),
         _ => file.to_owned(),
     };
+    let grammar = operator.session.configuration().control.grammar;
     let texts = operator.session.library_mut();
     let source = texts.open(&path)?;
-    let program = match program {
-        Some(name) => normal_name(name),
-        None => first_o_word(texts, source).unwrap_or_else(|| normal_name(&Texts::program_name(file))),
+    texts.look_beside(&path);
+    let found = programs_in(texts, source, &grammar).map_err(Failure::call)?;
+    let mut programs = Vec::new();
+    for (number, head) in found {
+        texts.keep_in_memory(number, source);
+        programs.push(Loaded { source, name: format!("O{number}"), head });
+    }
+    // A name given by hand, or the file's where no O word stands in it, is that of the text's first program.
+    let first = match program {
+        Some(name) => Some(normal_name(name)),
+        None if programs.is_empty() => Some(normal_name(&Texts::program_name(file))),
+        None => None,
     };
-    Ok((source, program))
+    if let Some(name) = first {
+        if let Some(number) = name.strip_prefix('O').and_then(|digits| digits.parse().ok()) {
+            texts.keep_in_memory(number, source);
+        }
+        programs.push(Loaded { source, name, head: Cursor::HEAD });
+    }
+    Ok(programs)
 }
 
 /// `o0012` and `O12` are one program; other names stay as they are.
@@ -100,18 +116,6 @@ fn normal_name(name: &str) -> String {
     }
 }
 
-/// The O number at the head of a program.
-fn first_o_word(texts: &mut Texts, source: SourceId) -> Option<String> {
-    let bytes = texts.excerpt(source, 0, 4096);
-    let head = bytes.iter().copied().skip_while(|b| matches!(b, b'%' | b' ' | b'\t' | b'\r' | b'\n' | 0));
-    let mut head = head.skip_while(|b| *b == 0xEF || *b == 0xBB || *b == 0xBF);
-    if !matches!(head.next(), Some(b'O' | b':')) {
-        return None;
-    }
-    let digits: String = head.take_while(u8::is_ascii_digit).map(char::from).collect();
-    digits.parse::<u32>().ok().map(|number| format!("O{number}"))
-}
-
 fn write(said: &Said, session: &mut Session<Texts>, tracer: &mut Tracer, out: &mut Vec<u8>) -> Result<(), Failure> {
     match said {
         Said::Event(event) => {
@@ -120,7 +124,7 @@ fn write(said: &Said, session: &mut Session<Texts>, tracer: &mut Tracer, out: &m
                 let configuration = session.configuration();
                 let (control, machine) = (configuration.control.clone(), configuration.machine.clone());
                 let (found, excerpt) = show_alarm(alarm, &control, &machine, session.library_mut());
-                eprint!("{}", render(&found, &excerpt, Format::Text { colour: colour_err() }));
+                say(&render(&found, &excerpt, Format::Text { colour: colour_err() }));
                 diagnostic = Some(found);
             }
             let interpreter = session.interpreter();

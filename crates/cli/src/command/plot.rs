@@ -11,7 +11,7 @@ use report::{Format, render};
 use super::{name_of, open, run_through};
 use crate::arguments::PlotArguments;
 use crate::failure::Failure;
-use crate::output::colour_err;
+use crate::output::{colour_err, say};
 use crate::show_alarm::show_alarm;
 
 /// What a picture can be.
@@ -75,7 +75,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
             EventKind::Alarm(alarm) => {
                 alarmed = true;
                 let (diagnostic, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
-                eprint!("{}", render(&diagnostic, &excerpt, Format::Text { colour: colour_err() }));
+                say(&render(&diagnostic, &excerpt, Format::Text { colour: colour_err() }));
                 mark(MarkKind::Alarm, diagnostic.alarm.map_or_else(String::new, |alarm| alarm.name));
             }
             _ => {}

@@ -9,7 +9,7 @@ use report::{Format, Summary, render};
 use super::{name_of, open, run_through};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
-use crate::output::colour_err;
+use crate::output::{colour_err, say};
 use crate::show_alarm::show_alarm;
 
 /// Blocks between two looks at the progress bar.
@@ -31,7 +31,7 @@ pub fn run(arguments: &RunArguments) -> Result<bool, Failure> {
                 alarmed = true;
                 let (diagnostic, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
                 summary.add_alarm(render(&diagnostic, &excerpt, Format::Json));
-                progress.suspend(|| eprint!("{}", render(&diagnostic, &excerpt, format)));
+                progress.suspend(|| say(&render(&diagnostic, &excerpt, format)));
             }
             EventKind::BlockDone if summary.blocks().is_multiple_of(BLOCKS_A_TICK) => {
                 if event.place.source == base::SourceId(0) {

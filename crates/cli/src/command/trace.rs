@@ -6,7 +6,7 @@ use report::{Format, Tracer, render};
 use super::{open, run_through};
 use crate::arguments::TraceArguments;
 use crate::failure::Failure;
-use crate::output::{Output, colour_err};
+use crate::output::{Output, colour_err, say};
 use crate::show_alarm::show_alarm;
 
 pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
@@ -24,7 +24,7 @@ pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
             alarmed = true;
             let (found, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
             output.flush()?;
-            eprint!("{}", render(&found, &excerpt, Format::Text { colour: colour_err() }));
+            say(&render(&found, &excerpt, Format::Text { colour: colour_err() }));
             diagnostic = Some(found);
         }
         let interpreter = session.interpreter();

@@ -11,9 +11,10 @@ use crate::operation::{Feed, RapidKind};
 use crate::unknown::letter_bit;
 
 impl Reading<'_> {
-    /// Program coordinate of the drilling axis where the block begins.
-    fn level_now(&self, axis: usize) -> f64 {
-        self.next.machine[axis] - self.zero(axis)
+    /// The initial level in program coordinates.
+    fn initial_level(&self) -> Result<f64, Alarm> {
+        let axis = self.drilling_axis()?;
+        Ok(self.next.cycle.initial + self.next.length - self.zero(axis))
     }
 
     fn drilling_axis(&self) -> Result<usize, Alarm> {
@@ -33,8 +34,9 @@ impl Reading<'_> {
         }
         if now && !before {
             let axis = self.drilling_axis()?;
-            // The offset may change in this very block; the level is that of the tool as it stands.
-            self.next.cycle.initial = self.level_now(axis) + self.length_change;
+            // The offset may change in this very block; the level is that of the tool as it stands. It keeps its place
+            // on the machine when the work system changes, and follows the length offset.
+            self.next.cycle.initial = self.next.machine[axis] - (self.next.length - self.length_change);
         }
         Ok(())
     }
@@ -42,14 +44,15 @@ impl Reading<'_> {
     /// A block while a cycle is in force: it stores data, and drills if it names a place.
     pub fn cycle_block(&mut self, cycle: Meaning) -> Result<(), Alarm> {
         let control = self.control();
-        let (units, absolute) = (self.units, self.absolute);
-        store(&self.words, control, units, absolute, &mut self.next.cycle)?;
+        let (units, absolute, takes_dwell) = (self.units, self.absolute, !self.calls_or_returns);
+        let initial = self.initial_level()?;
+        store(&self.words, control, units, absolute, takes_dwell, initial, &mut self.next.cycle)?;
         let levels = letter_bit(b'R') | letter_bit(b'Z');
         if !self.words.has_any(self.setting.axis_letters | levels) {
             return Ok(());
         }
         let drilling = self.drilling_axis()?;
-        let count = self.words.count(control, b'L')?.unwrap_or(1);
+        let count = if takes_dwell { self.words.count(control, b'L')?.unwrap_or(1) } else { 1 };
         if count == 0 && self.setting.fitting.policies.cycle_l0_moves == CycleL0Moves::No {
             return Ok(());
         }
@@ -74,15 +77,16 @@ impl Reading<'_> {
             return Err(self.one_shot_alarm(Condition::AddressUnavailable));
         };
         if cycle.is_some() {
-            let (units, absolute) = (self.units, self.absolute);
+            let (units, absolute, takes_dwell) = (self.units, self.absolute, !self.calls_or_returns);
+            let initial = self.initial_level()?;
             // Here I and J belong to the pattern; R, Z, Q and P may still renew the cycle's data.
-            store(&self.words, control, units, absolute, &mut self.next.cycle)?;
+            store(&self.words, control, units, absolute, takes_dwell, initial, &mut self.next.cycle)?;
         }
         let count = self.words.integer(control, b'L')?.unwrap_or(0);
         let size = self.words.length(control, b'I', self.units)?.unwrap_or(0.0);
         let angle = self.words.angle(control, b'J')?.unwrap_or(0.0) / 1e6;
         let (mut level, mut named) = (self.next.machine, self.axes_named()?);
-        if let Some(drilling) = self.setting.facts.axis(b'Z') {
+        if let (Some(drilling), true) = (self.setting.facts.axis(b'Z'), cycle.is_some()) {
             named = named.without(base::AxisSet::only(drilling));
         }
         for axis in named.iter() {
@@ -134,7 +138,9 @@ impl Reading<'_> {
     fn holes(&mut self, cycle: Option<Meaning>, places: Places) -> Result<(), Alarm> {
         let drilling = self.drilling_axis()?;
         let mut end_point = places.at(places.count().saturating_sub(1));
-        end_point[drilling] = self.next.machine[drilling];
+        if cycle.is_some() {
+            end_point[drilling] = self.next.machine[drilling];
+        }
         let approach = self.cycle_approach();
         let mut holes = Holes {
             cycle,
@@ -153,6 +159,7 @@ impl Reading<'_> {
         if let Some(cycle) = cycle {
             self.levels(cycle, drilling, &mut holes)?;
             end_point[drilling] = holes.end;
+            self.next.length_due = 0.0;
             self.now_known.add(drilling);
         }
         self.next.machine = end_point;
@@ -176,7 +183,7 @@ impl Reading<'_> {
         let to_r = control.in_force(&self.next.groups, control.roles.return_level) == Some(Meaning::ReturnR);
         holes.r = r + zero;
         holes.bottom = bottom + zero;
-        holes.end = if to_r { holes.r } else { data.initial + zero };
+        holes.end = if to_r { holes.r } else { data.initial + self.next.length };
         holes.peck = data.peck;
         holes.clearance = self.setting.fitting.parameter(control.tolerances.cycle_clearance) * 1e6;
         holes.dwell = data.dwell;

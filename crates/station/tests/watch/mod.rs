@@ -8,6 +8,7 @@ use base::{Place, Point, SourceId, Span};
 use dialect::Control;
 use machine::{Event, EventKind, MachineFile, builtin_machine, read_machine};
 use station::{Configuration, Library, LibraryError, Session, Setup, Step};
+use syntax::Cursor;
 
 /// Positions are exact to less than this, mm.
 pub const EXACTNESS_MM: f64 = 1e-9;
@@ -80,6 +81,11 @@ pub fn control() -> Arc<Control> {
 /// That control as it comes, on a machine, set up.
 pub fn configuration(machine: MachineFile, setup: &Setup) -> Configuration {
     Configuration::new(control(), machine, &[setup]).expect("the set-up fits")
+}
+
+/// Selects the text of this number, from its head.
+pub fn select(session: &mut Session<Texts>, text: u32) {
+    session.select(SourceId(text), "test", Cursor::HEAD);
 }
 
 /// What is asserted of a run beyond what holds for all.

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Fuzzes one target (read, interpret) for FUZZ_SECONDS (60) with libFuzzer; a finding stays in fuzz/artifacts/.
+# Runs on the stable compiler; the C++ part of libFuzzer needs a C++ compiler.
+set -euo pipefail
+cd "$(dirname "$0")/../fuzz"
+target=$1
+corpus=corpus/$target
+command -v c++ >/dev/null || { echo "make fuzz needs a C++ compiler (Debian: apt-get install g++)"; exit 1; }
+
+cargo build --release --locked --quiet --bin "$target"
+
+# Every program of the corpus and of the examples is a seed; their names are those of their contents.
+mkdir -p "$corpus" artifacts
+find ../cases ../examples -type f \( -name '*.nc' -o -name '*.txt' \) -size -4k | while read -r seed; do
+    cp "$seed" "$corpus/$(cksum <"$seed" | cut -d' ' -f1)"
+done
+
+host=$(rustc -vV | sed -n "s/^host: //p")
+built=${CARGO_TARGET_DIR:-target}/$host/release/$target
+log=artifacts/$target.log
+if "$built" -max_len=256 -timeout=10 -max_total_time="${FUZZ_SECONDS:-60}" -print_final_stats=1 -dict=words.dict \
+    -artifact_prefix="artifacts/$target-" "$corpus" >"$log" 2>&1; then
+    runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+    rate=$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")
+    echo "fuzz $target: $runs programs, $rate a second, nothing found"
+else
+    grep -m1 -A4 -E 'panicked|ERROR' "$log" || true
+    echo "fuzz $target: found something; the input is the newest file fuzz/artifacts/$target-*, all output is in fuzz/$log"
+    exit 1
+fi
