@@ -28,8 +28,12 @@ pub struct Arc {
 
 /// An end less than this beside the ray from the centre through the start, mm, lies on it: far below any increment.
 const ON_THE_RAY: f64 = 1e-7;
-/// Turns of the fixed-point search for a spiral's extreme; it gains several digits each.
-const SEARCH_STEPS: usize = 12;
+/// Steps in which the extreme of an ordinary spiral is found.
+const SEARCH_STEPS: usize = 6;
+/// Radians; a coordinate changes by the square of it at an extreme.
+const SEARCH_EXACTNESS: f64 = 1e-9;
+/// Halvings of a whole turn down to the last digit, for spirals that grow faster than they turn.
+const HALVINGS: usize = 56;
 
 impl Arc {
     /// The arc from `from` as the block gives it.
@@ -115,19 +119,36 @@ impl Arc {
             if direction > 0.0 { (self.start_angle / quarter).ceil() } else { (self.start_angle / quarter).floor() };
         // A spiral turns beside its quadrants, so the one before the start and the one after the end count too.
         (-1..6).filter_map(move |step| {
-            let quadrant = (first + direction * f64::from(step)) * quarter;
-            let mut s = (quadrant - self.start_angle) / self.sweep;
-            // On a spiral the turn lies where tan(offset) = r'/r, beside the quadrant.
-            let growth = (self.radius[1] - self.radius[0]) / self.sweep;
-            for _ in 0..SEARCH_STEPS {
-                let radius = self.radius[0] + growth * s * self.sweep;
-                if growth == 0.0 || radius == 0.0 {
-                    break;
-                }
-                s = (quadrant + libm::atan(growth / radius) - self.start_angle) / self.sweep;
-            }
+            let s = (self.turn_near((first + direction * f64::from(step)) * quarter) - self.start_angle) / self.sweep;
             (s > 0.0 && s < 1.0).then_some(s)
         })
+    }
+
+    /// The angle at which an axis turns round, near the quadrant at which a circle's does.
+    ///
+    /// With `g` the growth of the radius an angle, it lies where `angle = quadrant + atan2(g, r(angle))`; the right side
+    /// falls as the angle grows, so there is one such angle.
+    fn turn_near(&self, quadrant: f64) -> f64 {
+        let growth = (self.radius[1] - self.radius[0]) / self.sweep;
+        if growth == 0.0 {
+            return quadrant;
+        }
+        let beside = |angle: f64| quadrant + libm::atan2(growth, self.radius[0] + growth * (angle - self.start_angle));
+        // A spiral as programs have it, a hair off its circle, is found in two or three steps.
+        let mut angle = quadrant;
+        for _ in 0..SEARCH_STEPS {
+            let next = beside(angle);
+            if (next - angle).abs() < SEARCH_EXACTNESS {
+                return next;
+            }
+            angle = next;
+        }
+        let (mut low, mut high) = (quadrant - TAU / 2.0, quadrant + TAU / 2.0);
+        for _ in 0..HALVINGS {
+            let middle = (low + high) / 2.0;
+            if beside(middle) > middle { low = middle } else { high = middle }
+        }
+        (low + high) / 2.0
     }
 
     /// Lowest and highest coordinate of every axis along the whole arc.
