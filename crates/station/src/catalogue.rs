@@ -26,7 +26,7 @@ pub fn programs_in(
             Outcome::End => return Ok(programs),
             Outcome::More => {
                 start = cursor.offset;
-                last = library.read(source, start, WINDOW, &mut bytes)? || bytes.is_empty();
+                last = read_window(library, source, start, &mut bytes)?;
                 settled = Text.translate(&mut bytes, start, last);
                 continue;
             }
@@ -44,4 +44,24 @@ pub fn programs_in(
         }
         cursor = block.next;
     }
+}
+
+/// Reads a whole window, however few bytes the library gives at a time; true if the text ends with it.
+fn read_window(
+    library: &mut impl Library,
+    source: SourceId,
+    start: u64,
+    bytes: &mut Vec<u8>,
+) -> Result<bool, LibraryError> {
+    bytes.clear();
+    let mut part = Vec::new();
+    while bytes.len() < WINDOW {
+        let offset = start + bytes.len() as u64;
+        let last = library.read(source, offset, WINDOW - bytes.len(), &mut part)? || part.is_empty();
+        bytes.extend_from_slice(&part);
+        if last {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
