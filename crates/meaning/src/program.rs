@@ -10,6 +10,7 @@ use syntax::Cursor;
 pub(crate) struct Names {
     names: Vec<String>,
     by_name: BTreeMap<String, u32>,
+    by_number: BTreeMap<u32, ProgramId>,
 }
 
 impl Names {
@@ -23,8 +24,14 @@ impl Names {
         ProgramId(index)
     }
 
+    /// The name of a numbered program; a name already known is found without making its text anew.
     pub fn numbered(&mut self, number: u32) -> ProgramId {
-        self.intern(&format!("O{number}"))
+        if let Some(&program) = self.by_number.get(&number) {
+            return program;
+        }
+        let program = self.intern(&format!("O{number}"));
+        self.by_number.insert(number, program);
+        program
     }
 
     pub fn name(&self, program: ProgramId) -> &str {

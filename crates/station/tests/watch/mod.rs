@@ -13,6 +13,9 @@ use syntax::Cursor;
 /// Positions are exact to less than this, mm.
 pub const EXACTNESS_MM: f64 = 1e-9;
 
+/// Times in a row that the same bytes may be asked for before it counts as standing still.
+const MOST_AGAIN: u32 = 100;
+
 /// Program texts in memory, handed out in pieces of these sizes in turn (no sizes: as much as is asked for).
 #[derive(Clone, Default)]
 pub struct Texts {
@@ -24,6 +27,10 @@ pub struct Texts {
     pub pieces: Vec<usize>,
     /// How many pieces have been handed out.
     pub turn: usize,
+    /// What was asked for last.
+    pub asked: (SourceId, u64),
+    /// How many times in a row it was.
+    pub again: u32,
 }
 
 impl Texts {
@@ -42,6 +49,9 @@ impl Texts {
 impl Library for Texts {
     fn read(&mut self, source: SourceId, offset: u64, len: usize, bytes: &mut Vec<u8>) -> Result<bool, LibraryError> {
         bytes.clear();
+        self.again = if self.asked == (source, offset) { self.again + 1 } else { 0 };
+        self.asked = (source, offset);
+        assert!(self.again < MOST_AGAIN, "the same bytes are asked for again and again: {source:?} from {offset} on");
         let Some(text) = self.texts.get(source.0 as usize) else { return Ok(true) };
         let from = (offset as usize).min(text.len());
         let len = match self.pieces.len() {
