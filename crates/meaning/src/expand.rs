@@ -148,7 +148,8 @@ impl Expansion {
                 return None;
             }
             let phase = self.phase;
-            self.phase += 1;
+            // From the third on the cycle's own cursor counts, however many pecks a hole has.
+            self.phase = (phase + 1).min(3);
             match phase {
                 0 | 1 => {
                     let mut place = holes.places.at(self.hole);
