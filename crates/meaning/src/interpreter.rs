@@ -337,8 +337,12 @@ impl Interpreter {
     }
 
     /// Drops what was read and not executed: the state is that of the executing block, the axes stand at `machine`.
-    fn restore(&mut self, machine: &Point, refused: bool) {
-        let state = *self.executing_state();
+    pub fn restore(&mut self, machine: &Point, refused: bool) {
+        // Nothing of a refused block has happened: the state is that of the block before it.
+        let state = match self.queue.previous() {
+            Some(previous) if refused => previous.after,
+            _ => *self.executing_state(),
+        };
         let command = self.queue.front().filter(|command| command.place.line > 0).copied();
         self.drop_queue();
         self.reader.state = state;

@@ -10,11 +10,13 @@ pub(crate) struct Queue {
     ring: Vec<Command>,
     front: usize,
     len: usize,
+    /// The place before the front holds the command that was executed last.
+    has_previous: bool,
 }
 
 impl Queue {
     pub fn new(empty: &Command) -> Queue {
-        Queue { ring: vec![*empty; HELD], front: 0, len: 0 }
+        Queue { ring: vec![*empty; HELD], front: 0, len: 0, has_previous: false }
     }
 
     pub fn len(&self) -> usize {
@@ -46,10 +48,17 @@ impl Queue {
         if self.len > 0 {
             self.front = (self.front + 1) % HELD;
             self.len -= 1;
+            self.has_previous = true;
         }
     }
 
     pub fn clear(&mut self) {
         self.len = 0;
+        self.has_previous = false;
+    }
+
+    /// The command that was executed before the front one; there is one from the program's second block on.
+    pub fn previous(&self) -> Option<&Command> {
+        if self.has_previous { self.ring.get((self.front + HELD - 1) % HELD) } else { None }
     }
 }

@@ -161,6 +161,9 @@ impl<L: Library> Session<L> {
 
     /// Chooses the program to run, which begins at `head` in its text.
     pub fn select(&mut self, source: base::SourceId, name: &str, head: syntax::Cursor) {
+        let (position, refused) = (*self.machine.position(), self.alarm.is_some());
+        // What was read ahead of an alarm or of a program broken off was never executed.
+        self.interpreter_mut().restore(&position, refused);
         self.interpreter_mut().select_at(source, name, head);
         self.held = false;
         self.told = None;

@@ -36,6 +36,13 @@ pub struct Extent {
 }
 
 impl Extent {
+    /// Cuts off what lies beyond a block of this length; at least its last character stays.
+    pub(crate) fn clip(&mut self, block_len: u32) {
+        let end = u16::try_from(block_len).unwrap_or(u16::MAX);
+        self.at = self.at.min(end.saturating_sub(1));
+        self.len = self.len.min(end - self.at);
+    }
+
     /// The same as a place in the text.
     pub const fn span(self, block_start: u64) -> Span {
         Span { start: block_start + self.at as u64, len: self.len as u32 }

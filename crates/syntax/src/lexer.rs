@@ -207,7 +207,7 @@ impl Lexer<'_> {
                 }
                 (1 + scan.len, Value::Number(number))
             }
-            None => match expression_len(&self.text[from + 1..]) {
+            None => match expression_len(&self.text[from + 1..], self.last) {
                 None if !self.last => {
                     self.at = self.text.len();
                     return false;
@@ -335,6 +335,11 @@ impl Lexer<'_> {
             let extent = Extent { at: limit as u16, len: (at - start - limit).max(1) as u16 };
             block.faults.push(Fault { condition: Condition::BlockTooLong, extent });
         }
+        // Blanks at its end do not belong to the block, nor to a comment or fault that reached into them.
+        let words = block.words.iter_mut().map(|word| &mut word.extent);
+        let faults = block.faults.iter_mut().map(|fault| &mut fault.extent);
+        let extents = block.comments.iter_mut().chain(words).chain(faults);
+        extents.for_each(|extent| extent.clip(block.len));
         let offset = cursor.offset + (at + ending) as u64;
         let ended_line = ending > 0 && text[at + ending - 1] == b'\n';
         block.next = if ended_line {

@@ -24,8 +24,8 @@ pub(crate) fn statement_at(text: &[u8], fold: bool) -> Option<StatementKind> {
 
 /// Characters of the expression at the head of `text` (`#1`, `-#[#2+1]`, `[#1*2]`), 0 if there is none.
 ///
-/// `None` if the characters ran out before it closed; `Err` at the character where it cannot go on.
-pub(crate) fn expression_len(text: &[u8]) -> Option<Result<usize, usize>> {
+/// `None` if the characters ran out before it closed and are not the `last` ones; `Err` at the character where it cannot go on.
+pub(crate) fn expression_len(text: &[u8], last: bool) -> Option<Result<usize, usize>> {
     let mut i = 0;
     let skip_blanks = |i: &mut usize| {
         while text.get(*i).is_some_and(|&b| is_blank(b)) {
@@ -70,7 +70,7 @@ pub(crate) fn expression_len(text: &[u8]) -> Option<Result<usize, usize>> {
                 }
                 i += 1;
             }
-            None
+            last.then_some(Ok(end))
         }
         _ => Some(Err(i)),
     }
