@@ -8,7 +8,7 @@ use crate::number::{is_blank, scan_number};
 use crate::statement::{expression_len, statement_at};
 
 /// The longest run of characters that is looked at as one block; far above any control's own limit.
-pub(crate) const LONGEST: usize = 8192;
+pub const LONGEST: usize = 8192;
 
 /// What came of reading.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -13,5 +13,5 @@ mod statement;
 
 pub use block::{Block, Cursor, Extent, Fault, Skip, Statement, StatementKind, Value, Word};
 pub use grammar::{Colon, Grammar, LowerCase, Semicolon};
-pub use lexer::{Outcome, read_block};
+pub use lexer::{LONGEST, Outcome, read_block};
 pub use print::print_block;
