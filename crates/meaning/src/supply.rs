@@ -3,7 +3,8 @@
 use base::SourceId;
 use tape::Reader;
 
-/// How many bytes of a text are asked for at a time.
+/// How many bytes of a text are asked for at a time. Texts are read as [`tape::Text`]; a punched tape's reader takes
+/// its place here, one for each source.
 pub const WINDOW: usize = 64 * 1024;
 /// How many windows are kept.
 const WINDOWS: usize = 4;
