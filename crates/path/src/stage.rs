@@ -195,6 +195,8 @@ fn shape(
         }
         Verdict::Refuse(alarm) => {
             *doubtful = true;
+            // Checking on, later moves begin where the program believes to be.
+            *position = to;
             shaped.shape = Shape::Alarm(alarm);
             return true;
         }
