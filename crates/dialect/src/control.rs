@@ -122,6 +122,8 @@ pub struct Control {
     pub common_offsets: bool,
     /// M codes that cycles send: spindle forward, reverse, stop, orient.
     pub cycle_codes: [u32; 4],
+    /// Index of the parameter, and its bit, with which G92 presets the UNIVERSAL display; `None` if none does.
+    pub universal_preset: Option<(usize, u8)>,
     /// Row of the base work system, if the control has one.
     pub base_system: Option<u8>,
     /// M codes the machine builder decides, those of the control, those above two digits.

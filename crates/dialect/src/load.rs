@@ -93,6 +93,7 @@ struct Head {
     common_offsets: bool,
     cycle_codes: [u32; 4],
     base_code: Option<String>,
+    universal_preset: Option<(String, u8)>,
     groups: Vec<codes::GroupDraft>,
     options: Vec<crate::row::OptionRow>,
     policies: Vec<crate::row::PolicyRow>,
@@ -161,6 +162,12 @@ fn head(root: &mut Table) -> Head {
         t.strings("systems");
         t.string("base")
     });
+    let universal_preset = root.table("displays", |t| {
+        t.table("universal_preset", |bit| {
+            let number = bit.integer("number").map_or_else(String::new, |number| number.to_string());
+            (number, small(bit.integer("bit")).min(7) as u8)
+        })
+    });
     Head {
         name: root.required_string("name"),
         title: root.required_string("title"),
@@ -178,6 +185,7 @@ fn head(root: &mut Table) -> Head {
         common_offsets,
         cycle_codes: cycle_codes.unwrap_or_default(),
         base_code: base_code.flatten(),
+        universal_preset: universal_preset.flatten(),
         groups: root.tables("group", codes::group),
         options: root.tables("option", settings::option),
         policies: root.tables("policy", settings::policy),
@@ -208,6 +216,10 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     let groups = resolve_groups(files, &head.groups, &g_codes, &parameters)?;
     let roles = find_roles(files, &groups, &g_codes)?;
     let base_system = head.base_code.as_deref().and_then(|name| codes::row_of_name(&g_codes, name));
+    let universal_preset = match &head.universal_preset {
+        Some((name, bit)) => Some((parameter_index(files, &parameters, name)?, *bit)),
+        None => None,
+    };
     let tolerances = Tolerances {
         cycle_clearance: parameter_index(files, &parameters, "cycle clearance")?,
         arc_radius: parameter_index(files, &parameters, "arc radius tolerance")?,
@@ -230,6 +242,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         offset_limit_mm: head.offset_limit_mm,
         common_offsets: head.common_offsets,
         cycle_codes: head.cycle_codes,
+        universal_preset,
         base_system,
         m_ranges,
         groups,

@@ -28,10 +28,11 @@ impl Setting {
         to_mm(counts, self.facts.axes.len())
     }
 
-    /// #6005 D5: G92 presets the UNIVERSAL display.
+    /// Whether G92 presets the UNIVERSAL display, by the parameter bit that the control has for it.
     pub fn presets_universal(&self) -> bool {
-        let bits = self.fitting.parameter_by_name(&self.control, "6005").unwrap_or(0.0) as u8;
-        bits & (1 << 5) != 0
+        self.control
+            .universal_preset
+            .is_some_and(|(parameter, bit)| self.fitting.parameter(parameter) as u8 & (1 << bit) != 0)
     }
 }
 
