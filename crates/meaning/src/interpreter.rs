@@ -350,6 +350,8 @@ impl Interpreter {
         let stays = self.reader.setting.fitting.policies.reset_pointer == ResetPointer::Stays;
         match command {
             Some(command) if stays => self.reader.go_to(&command, refused),
+            // Nothing is being executed: a second RESET leaves the program where the first one did.
+            None if stays => {}
             _ => self.reader.rewind(),
         }
         self.started = false;
