@@ -50,6 +50,44 @@ conditions! {
     BlockTooLong = "block-too-long",
     /// A macro statement that cannot be read.
     MacroStatement = "macro-statement",
+    /// A name in an expression that is no function, or ATAN without its second bracket.
+    MacroFunction = "macro-function",
+    /// Brackets nested deeper than the control follows. Values: brackets allowed.
+    MacroBrackets = "macro-brackets",
+    /// IF … THEN, which later controls have.
+    MacroThen = "macro-then",
+    /// A statement beside other words of a block.
+    MacroInBlock = "macro-in-block",
+    /// Macros are not fitted.
+    MacroNotFitted = "macro-not-fitted",
+    /// An O or N given by a variable.
+    MacroVariableNotHere = "macro-variable-not-here",
+    /// No such variable. Values: number.
+    MacroVariableUnknown = "macro-variable-unknown",
+    /// A write to a variable that can only be read. Values: number.
+    MacroReadOnly = "macro-read-only",
+    /// A read of a variable that can only be written. Values: number.
+    MacroWriteOnly = "macro-write-only",
+    /// A division by zero.
+    MacroDivisionByZero = "macro-division-by-zero",
+    /// A function has no value there. Values: argument.
+    MacroArgumentRange = "macro-argument-range",
+    /// A result too large for a variable.
+    MacroOverflow = "macro-overflow",
+    /// A loop's number is not one of the control's. Values: number, highest.
+    MacroLoopNumber = "macro-loop-number",
+    /// Loops nested too deep. Values: loops allowed.
+    MacroLoopDepth = "macro-loop-depth",
+    /// DO and END do not pair. Values: number.
+    MacroLoopPair = "macro-loop-pair",
+    /// GOTO into a loop. Values: block number, line.
+    MacroIntoLoop = "macro-into-loop",
+    /// A letter that is no argument of a call, or an I J K group too many.
+    MacroArgument = "macro-argument",
+    /// Macro calls nested too deep. Values: levels allowed.
+    MacroNestingTooDeep = "macro-nesting-too-deep",
+    /// The program raised an alarm itself (#3000). Values: number.
+    MacroUser = "macro-user",
 
     // Words that the control does not have, or not so.
     /// The address letter means nothing on this control or this machine.
@@ -111,6 +149,8 @@ conditions! {
     ArcEndOff = "arc-end-off",
     /// No such offset number. Values: number, highest number.
     OffsetNumber = "offset-number",
+    /// An offset value beyond what the memory holds. Values: mm, limit mm.
+    OffsetRange = "offset-range",
     /// A canned cycle lacks its R or Z level.
     CycleLevelMissing = "cycle-level-missing",
     /// A pecking cycle lacks its depth of cut Q.
@@ -129,7 +169,7 @@ conditions! {
     SequenceNotFound = "sequence-not-found",
     /// Subprograms call one another too deep. Values: levels allowed.
     NestingTooDeep = "nesting-too-deep",
-    /// A loop runs on without motion, dwell or stop. Values: jumps or statements counted.
+    /// A loop runs on without motion, dwell or stop. Values: jumps or statements counted, first line, last line.
     EndlessLoop = "endless-loop",
 
     // The machine.

@@ -38,8 +38,13 @@ impl Control {
             let index = *self.alarm_of_condition.get(alarm.condition as usize)?;
             self.alarms.get(index)
         });
+        let number_of = |row: &AlarmRow| match alarm.condition {
+            // The program gives the number itself.
+            Condition::MacroUser => Some(alarm.values[0].round().clamp(0.0, f64::from(u32::MAX)) as u32),
+            _ => row.number,
+        };
         match row {
-            Some(row) => AlarmName { name: row.name.clone(), number: row.number, text: row.text.clone() },
+            Some(row) => AlarmName { name: row.name.clone(), number: number_of(row), text: row.text.clone() },
             None => AlarmName { name: alarm.condition.id().to_uppercase(), number: None, text: String::new() },
         }
     }
@@ -80,6 +85,14 @@ fn fill(text: &str, alarm: &Alarm, word: &str, axis: Option<(char, bool)>) -> St
             }
             _ => match name {
                 "word" => out.push_str(word),
+                // The message in parentheses, where the word has one.
+                "comment" => {
+                    let message = word.split_once('(').map(|(_, rest)| rest.trim_end().trim_end_matches(')').trim());
+                    if let Some(message) = message.filter(|message| !message.is_empty()) {
+                        out.push_str(": ");
+                        out.push_str(message);
+                    }
+                }
                 "axis" => out.push(axis.map_or('?', |(letter, _)| letter)),
                 "g" => out.push_str(&format!("G{:02}", alarm.values[0])),
                 digit => out.push_str(&plain(value(digit).unwrap_or(0.0))),

@@ -6,6 +6,7 @@ use crate::address::Address;
 use crate::alarm::{AlarmRow, Sentences};
 use crate::meaning::{MMeaning, Meaning};
 use crate::row::{GCode, MCode, OptionRow, Origin, ParameterRow, PolicyRow};
+use crate::user_macro::UserMacro;
 
 /// The most modal groups a control can have.
 pub const MOST_GROUPS: usize = 24;
@@ -74,6 +75,8 @@ pub struct Roles {
     pub work: usize,
     /// Exact stop or cutting mode.
     pub stop_mode: usize,
+    /// Modal macro calls.
+    pub modal_macro: usize,
 }
 
 /// Tolerances and clearances that are parameters on this control: indices of the parameter rows.
@@ -146,6 +149,8 @@ pub struct Control {
     pub policies: Vec<PolicyRow>,
     /// The parameters.
     pub parameters: Vec<ParameterRow>,
+    /// The user macro.
+    pub user_macro: UserMacro,
     /// The alarms.
     pub alarms: Vec<AlarmRow>,
     /// The sentences for each condition, in the order of `Condition::ALL`.

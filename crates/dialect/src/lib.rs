@@ -14,6 +14,7 @@ mod load;
 mod meaning;
 mod policy;
 mod row;
+mod user_macro;
 mod word;
 
 pub use address::{Address, AddressKind, PointRule};
@@ -23,15 +24,17 @@ pub use combination::{Written, check_combination};
 pub use control::{Control, Group, GroupCodes, GroupRule, Grouping, MOST_GROUPS, NO_CODE, Roles, Tolerances};
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use load::{ControlFiles, load_control};
-pub use meaning::{MMeaning, Meaning};
+pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};
 pub use policy::{
-    ArcWithoutCentre, CycleL0Moves, CycleWithMotion, FeedModeChange, G92System, InchFeedInteger, M01OffOutput, MOver99,
-    OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter,
-    ResetPointer, StrokeCheck, UnitChangeOffsets,
+    ArcWithoutCentre, CycleL0Moves, CycleWithMotion, DwellVariable, FeedModeChange, G92System, InchFeedInteger,
+    M01OffOutput, MOver99, OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius,
+    PositionOffsetLetter, ResetPointer, StrokeCheck, UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,
 };
+
+pub use user_macro::{ArgumentRow, FunctionRow, UserMacro, VariableRow};
 
 #[cfg(test)]
 mod tests {

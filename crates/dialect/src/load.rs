@@ -5,6 +5,7 @@
 mod alarms;
 mod codes;
 mod settings;
+mod user_macro;
 
 use data::{DataError, Document, Table};
 use syntax::{Colon, Grammar, LowerCase, Semicolon};
@@ -203,8 +204,9 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     let parameters = files.read("parameters.toml", settings::parameters).map_err(&mut keep).ok();
     let addresses = files.read("addresses.toml", settings::addresses).map_err(&mut keep).ok();
     let m_codes = files.read("m_codes.toml", codes::m_codes).map_err(&mut keep).ok();
-    let (Some(head), Some(parameters), Some(addresses), Some((m_ranges, m_codes))) =
-        (head, parameters, addresses, m_codes)
+    let user_macro = files.read("macro.toml", user_macro::user_macro).map_err(&mut keep).ok();
+    let (Some(head), Some(parameters), Some(addresses), Some((m_ranges, m_codes)), Some(user_macro)) =
+        (head, parameters, addresses, m_codes, user_macro)
     else {
         return Err(errors);
     };
@@ -256,6 +258,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         options: head.options,
         policies: head.policies,
         parameters,
+        user_macro,
         alarms,
         sentences,
         alarm_of_condition,
@@ -340,5 +343,6 @@ fn find_roles(files: &ControlFiles, groups: &[Group], rows: &[GCode]) -> Result<
         return_level: of(Meaning::ReturnInitial)?,
         work: of(Meaning::WorkSystem)?,
         stop_mode: of(Meaning::CuttingMode)?,
+        modal_macro: of(Meaning::ModalMacroOff)?,
     })
 }

@@ -118,6 +118,57 @@ meanings! {
     }
 }
 
+meanings! {
+    /// What stands behind the number of a macro variable.
+    VariableMeaning {
+        Null = "null",
+        Local = "local",
+        CommonVolatile = "common-volatile",
+        CommonPermanent = "common-permanent",
+        InputBit = "input-bit",
+        InputWord = "input-word",
+        OutputBit = "output-bit",
+        OutputWord = "output-word",
+        Offset = "offset",
+        WorkOriginOfAxis = "work-origin-of-axis",
+        WorkOriginOfSystem = "work-origin-of-system",
+        UserAlarm = "user-alarm",
+        Clock = "clock",
+        RunHours = "run-hours",
+        BlockControl = "block-control",
+        FeedControl = "feed-control",
+        GroupCode = "group-code",
+        ModalWord = "modal-word",
+        BlockEnd = "block-end",
+        MachinePosition = "machine-position",
+        WorkPosition = "work-position",
+        SkipPosition = "skip-position",
+        ToolOffset = "tool-offset",
+        ServoDeviation = "servo-deviation",
+    }
+}
+
+meanings! {
+    /// What a function of a macro expression does.
+    Function {
+        Sine = "sine",
+        Cosine = "cosine",
+        Tangent = "tangent",
+        ArcTangent = "arc-tangent",
+        ArcSine = "arc-sine",
+        ArcCosine = "arc-cosine",
+        SquareRoot = "square-root",
+        Absolute = "absolute",
+        FromBcd = "from-bcd",
+        ToBcd = "to-bcd",
+        Round = "round",
+        Fix = "fix",
+        Fup = "fup",
+        Logarithm = "logarithm",
+        Exponential = "exponential",
+    }
+}
+
 impl Meaning {
     /// True for movements that stay in force from block to block: positioning, lines, arcs.
     pub const fn is_motion(self) -> bool {

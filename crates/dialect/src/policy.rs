@@ -125,6 +125,13 @@ policies! {
         /// They keep their digits: a count of least increments.
         Keep = "keep",
     }
+    /// What P of a dwell counts when a variable gives it.
+    dwell_variable: DwellVariable = "dwell-variable" {
+        /// Seconds, as if it were written with a point.
+        Seconds = "seconds",
+        /// Milliseconds, as if it were written without one.
+        Milliseconds = "milliseconds",
+    }
     /// Where RESET leaves the program.
     reset_pointer: ResetPointer = "reset-pointer" {
         /// At the block after the one being executed.

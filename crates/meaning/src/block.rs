@@ -5,7 +5,7 @@
 
 use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
 use dialect::{Control, InchFeedInteger, Meaning};
-use syntax::Block;
+use syntax::{Block, Cursor};
 
 use crate::command::Command;
 use crate::jump::{Calls, Found};
@@ -14,6 +14,7 @@ use crate::position_offset::PositionOffset;
 use crate::setting::Setting;
 use crate::state::{FeedWord, State};
 use crate::unknown::letter_bit;
+use crate::user_macro::call::Arguments;
 use crate::word::{Refusal, Words};
 
 /// Where the program goes on after a block.
@@ -21,8 +22,12 @@ use crate::word::{Refusal, Words};
 pub(crate) enum Flow {
     /// With the next block.
     Next,
-    /// In a subprogram, so many times.
-    Call(Found, u32),
+    /// In a subprogram, so many times, each time from its entry on.
+    Call { found: Found, entry: Cursor, repeats: u32 },
+    /// In a macro with the block's arguments, so many times.
+    MacroCall(Found, u32),
+    /// With the next block, and in a macro after every move.
+    ModalCall(Found, u32),
     /// Back in the caller, at the block after the call or at the found one.
     Return(Option<Found>),
     /// The main program from its head.
@@ -36,6 +41,10 @@ pub(crate) struct Reading<'r> {
     pub setting: &'r Setting,
     pub calls: &'r Calls,
     pub words: Words<'r>,
+    /// The values of words that were variables, by their index; blanks for the others.
+    pub word_values: &'r [f64],
+    /// The arguments of a macro call.
+    pub arguments: &'r mut Arguments,
     /// Words before a block-delete sign whose switch is on.
     pub word_count: usize,
     /// The state before the block.
@@ -70,7 +79,8 @@ pub(crate) fn read_meaning(
     calls: &Calls,
     before: &State,
     next: &mut State,
-    block: &Block,
+    (block, word_values): (&Block, &[f64]),
+    arguments: &mut Arguments,
     command: &mut Command,
 ) -> Result<Flow, Refusal> {
     let (word_count, cut) = cut_by_block_delete(block, setting.switches.block_delete);
@@ -82,6 +92,8 @@ pub(crate) fn read_meaning(
         setting,
         calls,
         words,
+        word_values,
+        arguments,
         word_count,
         before,
         next,
@@ -106,8 +118,9 @@ pub(crate) fn read_meaning(
         _ => UnitSystem::Metric,
     };
     reading.absolute = control.in_force(groups, roles.distance) != Some(Meaning::Incremental);
-    reading.exact_stop = control.in_force(groups, roles.stop_mode) == Some(Meaning::ExactStopMode)
+    let stops = control.in_force(groups, roles.stop_mode) == Some(Meaning::ExactStopMode)
         || reading.one_shot.is_some_and(|(code, _)| code == Meaning::ExactStop);
+    reading.exact_stop = stops && reading.next.feed_control & 4 == 0;
     reading.command.side = match control.in_force(groups, roles.compensation) {
         Some(Meaning::CompensationLeft) => Side::Left,
         Some(Meaning::CompensationRight) => Side::Right,
@@ -115,6 +128,10 @@ pub(crate) fn read_meaning(
     };
     if reading.command.side != Side::Off {
         reading.note_plane();
+    }
+    if let Some(modal) = reading.macro_call_kind() {
+        // Every other word is an argument and means nothing else.
+        return reading.macro_call(modal);
     }
     reading.take_values()?;
     let flow = reading.take_codes()?;
@@ -124,7 +141,7 @@ pub(crate) fn read_meaning(
 }
 
 /// How many words a block-delete switch leaves, and from which character on the rest is ignored.
-fn cut_by_block_delete(block: &Block, switches: u16) -> (usize, u16) {
+pub(crate) fn cut_by_block_delete(block: &Block, switches: u16) -> (usize, u16) {
     for skip in &block.skips {
         if switches & (1 << (skip.switch - 1)) != 0 {
             return (usize::from(skip.first_word), skip.extent.at);
@@ -140,12 +157,7 @@ fn check_faults(setting: &Setting, words: &Words, block: &Block, cut: u16) -> Re
         let alarm = Alarm::new(fault.condition, words.place, fault.extent.span(start));
         return Err(alarm.with([f64::from(setting.control.grammar.block_length), 0.0, 0.0]));
     }
-    match block.statement {
-        Some(statement) if statement.extent.at < cut => {
-            Err(Alarm::new(Condition::NotYetBuilt, words.place, statement.extent.span(start)))
-        }
-        _ => Ok(()),
-    }
+    Ok(())
 }
 
 /// Refuses block-delete switches that are not fitted.
@@ -176,7 +188,7 @@ impl Reading<'_> {
                 use dialect::AddressKind::{LinearAxis, MacroOnly, RotaryAxis};
                 !matches!(address.kind, LinearAxis | RotaryAxis | MacroOnly)
             });
-            if !known {
+            if !known && !self.is_argument(word) {
                 return Err(self.words.alarm_at(Condition::AddressUnavailable, word));
             }
         }
@@ -184,6 +196,18 @@ impl Reading<'_> {
             return self.refuse_repeated_words();
         }
         Ok(())
+    }
+
+    /// Whether a letter that means nothing else is an argument of the block's macro call.
+    fn is_argument(&self, word: &syntax::Word) -> bool {
+        let control = self.control();
+        let calls = self.words.block.words.iter().any(|word| {
+            let syntax::Value::Number(number) = word.value else { return false };
+            let row = number.integer().filter(|_| word.letter == b'G').and_then(|code| control.g_row(code));
+            row.and_then(|row| control.g_codes.get(usize::from(row)))
+                .is_some_and(|code| matches!(code.meaning, Meaning::MacroCall | Meaning::ModalMacroCall))
+        });
+        calls && control.user_macro.argument(word.letter).is_some()
     }
 
     fn refuse_repeated_words(&self) -> Result<(), Alarm> {

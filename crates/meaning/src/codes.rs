@@ -58,8 +58,10 @@ impl Reading<'_> {
             let code = u32::try_from(code).unwrap_or(u32::MAX);
             let Some(row) = control.m_code(code) else {
                 self.send_builders_code(code, digits, word)?;
+                self.next.miscellaneous = code;
                 continue;
             };
+            self.next.miscellaneous = code;
             self.command.stops_reading |= row.stops_read_ahead;
             let after = self.setting.facts.codes.m_after_motion.contains(&code);
             match row.meaning {

@@ -46,6 +46,13 @@ pub(crate) enum Body {
     Start(GroupCodes),
 }
 
+impl Body {
+    /// True if axes move by it.
+    pub fn moves(&self) -> bool {
+        matches!(self, Body::Rapid { .. } | Body::Via { .. } | Body::Line { .. } | Body::Arc { .. } | Body::Holes(_))
+    }
+}
+
 /// What follows the block.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Finish {

@@ -2,6 +2,8 @@
 
 use base::{AXES, AxisSet, Point};
 
+use crate::user_macro::Variables;
+
 /// One axis as programs see it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct AxisFacts {
@@ -83,6 +85,8 @@ pub struct Memory {
     pub lengths: OffsetTable,
     /// Values selected by D where D has a column of its own.
     pub radii: Option<OffsetTable>,
+    /// Macro variables.
+    pub variables: Variables,
     /// Origins of the work systems 1 to 6: machine coordinates in nanometres or microdegrees.
     pub work: [Point; 6],
 }

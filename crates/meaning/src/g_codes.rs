@@ -80,11 +80,11 @@ impl Reading<'_> {
 
     /// Modal codes whose meaning is not built yet are refused where they are written.
     pub fn refuse_unbuilt_modes(&self) -> Result<(), Alarm> {
-        use Meaning::{ModalMacroCall, RotationOn, ScalingOn};
+        use Meaning::{RotationOn, ScalingOn};
         let control = self.setting.control.as_ref();
         for (index, _) in control.groups.iter().enumerate() {
             let unbuilt = match control.in_force(&self.next.groups, index) {
-                Some(ScalingOn | RotationOn | ModalMacroCall) => true,
+                Some(ScalingOn | RotationOn) => true,
                 Some(Meaning::StrokeCheckOn) => {
                     self.words.has_any(b"XYZIJK".iter().fold(0, |set, &letter| set | letter_bit(letter)))
                 }

@@ -151,6 +151,21 @@ impl Interpreter {
         self.reader.main_program()
     }
 
+    /// The value of a macro variable of the level in execution; `None` is a blank or no such variable.
+    pub fn variable(&self, number: u32) -> Option<f64> {
+        self.reader.variable(number)
+    }
+
+    /// Writes a macro variable by hand; `None` blanks it. False if there is none that may be written so.
+    pub fn set_variable(&mut self, number: u32, value: Option<f64>) -> bool {
+        self.reader.set_variable(number, value.unwrap_or(crate::user_macro::BLANK))
+    }
+
+    /// Writes to variables are told as operations, as a trace wants them.
+    pub fn tell_variables(&mut self, tells: bool) {
+        self.reader.tells_variables = tells;
+    }
+
     /// What the control has read: the state after the last block read.
     pub fn read_state(&self) -> &State {
         &self.reader.state
@@ -190,11 +205,27 @@ impl Interpreter {
             if let Some(barrier) = self.read_ahead() {
                 return Pull::Barrier(barrier);
             }
+            if self.tell_note() {
+                return Pull::Item(&self.operation);
+            }
             match self.queue.front() {
                 Some(command) => self.expansion = Some(Expansion::new(command)),
                 None => return Pull::End,
             }
         }
+    }
+
+    /// Makes an operation of the next write to a variable, if the blocks read before it are done.
+    fn tell_note(&mut self) -> bool {
+        let due = match (self.reader.notes.front(), self.queue.front()) {
+            (Some(note), Some(command)) => note.before <= command.block && !matches!(command.body, Body::Start(_)),
+            (Some(_), None) => self.started,
+            (None, _) => false,
+        };
+        let Some(note) = self.reader.notes.pop_front_if(|_| due) else { return false };
+        self.operation =
+            Operation { block: note.before, place: note.place, act: Act::Set(note.value), ..Operation::default() };
+        true
     }
 
     /// Makes the next operation of the block being executed; the block leaves the queue when it is done.
@@ -205,10 +236,11 @@ impl Interpreter {
         if !expansion.next(command, &around, &mut self.operation) {
             self.expansion = None;
             self.queue.pop();
+            self.reader.ahead = 0;
             return None;
         }
         if let Act::Close(close) = self.operation.act {
-            if command.finish == Finish::End(EndKind::M99) {
+            if matches!(command.finish, Finish::End(EndKind::M99 | EndKind::Loop)) {
                 match self.runs_again.take() {
                     None => {
                         // The close comes again when the question is answered.
@@ -254,6 +286,11 @@ impl Interpreter {
                     return Some(self.ask(BarrierKind::NeedBytes { source, offset, len: WINDOW }));
                 }
                 Read::NeedProgram { number } => return Some(self.ask(BarrierKind::NeedProgram { number })),
+                // Motion must have ended: the blocks in the queue come first.
+                Read::NeedValue(quantity) if quantity.waits_for_motion() && self.queue.len() > 0 => break,
+                Read::NeedValue(quantity) => return Some(self.ask(BarrierKind::NeedValue(quantity))),
+                Read::Pause if self.queue.len() > 0 => break,
+                Read::Pause => self.reader.ahead = 0,
                 Read::Ended => break,
             }
         }
@@ -293,6 +330,10 @@ impl Interpreter {
             (BarrierKind::NeedBytes { source, offset, len }, _) => self.take_bytes(source, offset, len, &[], true),
             (BarrierKind::NeedProgram { .. }, Answer::Program(source)) => self.reader.brought(Some(source)),
             (BarrierKind::NeedProgram { .. }, _) => self.reader.brought(None),
+            (BarrierKind::NeedValue(quantity), answer) => {
+                let value = if let Answer::Value(value) = answer { value } else { 0.0 };
+                self.reader.answers.push((quantity, value));
+            }
             (BarrierKind::RunAgain, answer) => self.runs_again = Some(answer == Answer::Continue),
             (BarrierKind::CycleStart, Answer::Stop) => self.reader.end(),
             (BarrierKind::CycleStart, _) => {}
@@ -330,9 +371,12 @@ impl Interpreter {
         let cycle = setting.control.roles.cycle;
         let before = state.groups.0[cycle];
         state.groups = setting.fitting.reset(&setting.control, state.groups);
+        state.block_control = 0;
+        state.feed_control = 0;
         if state.groups.0[cycle] != before {
             state.cycle = crate::cycle::CycleData::default();
         }
+        self.reader.setting.memory.variables.reset();
         self.start_state = self.reader.state;
     }
 
@@ -398,6 +442,7 @@ impl Interpreter {
     /// Texts have changed: everything remembered of them is forgotten.
     pub fn forget_texts(&mut self) {
         self.reader.supply.clear();
+        self.reader.store.clear();
         self.reader.calls.forget();
     }
 }

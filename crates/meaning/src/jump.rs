@@ -10,8 +10,9 @@ use base::{Condition, ProgramId, SourceId};
 use syntax::{Block, Cursor, Grammar, Outcome, Value, Word, read_block};
 
 use crate::block::{Flow, Reading};
-use crate::program::{Frame, Names};
+use crate::program::{CalledBy, Frame, Names};
 use crate::supply::Supply;
+use crate::user_macro::statement::loop_mark;
 use crate::word::Refusal;
 
 /// What a jump looks for.
@@ -20,7 +21,9 @@ pub(crate) enum Target {
     /// A program, called from a source.
     Program { number: u32, from: SourceId },
     /// A block of the program that begins at `head`, looked for from `from` on.
-    Sequence { source: SourceId, head: Cursor, from: Cursor, number: u32 },
+    Sequence { source: SourceId, program: ProgramId, head: Cursor, from: Cursor, number: u32 },
+    /// The block after the end of the loop of this number whose first block is at `from`.
+    LoopEnd { source: SourceId, from: Cursor, number: u8 },
 }
 
 /// Where a target is.
@@ -29,6 +32,57 @@ pub(crate) struct Found {
     pub source: SourceId,
     pub program: ProgramId,
     pub cursor: Cursor,
+    /// A jump there from where it was looked for leads into a loop.
+    pub enters: bool,
+}
+
+/// A loop that is being turned.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct OpenLoop {
+    /// Programs on the levels of calls when it was begun.
+    pub depth: usize,
+    pub number: u8,
+    /// Its first block.
+    pub head: Cursor,
+    /// The block after its last one.
+    pub after: Cursor,
+}
+
+/// Loops inside one another that a scan follows; a control has fewer.
+const MOST_LOOPS: usize = 10;
+
+/// The first blocks of the loops that are being turned where a search begins.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) struct LoopsAround {
+    heads: [u64; MOST_LOOPS],
+    count: usize,
+}
+
+impl LoopsAround {
+    /// Those of the program on this level.
+    pub fn of(loops: &[OpenLoop], depth: usize) -> LoopsAround {
+        let mut around = LoopsAround::default();
+        for open in loops.iter().filter(|open| open.depth == depth) {
+            around.push(open.head.offset);
+        }
+        around
+    }
+
+    fn push(&mut self, head: u64) {
+        if let Some(slot) = self.heads.get_mut(self.count) {
+            *slot = head;
+            self.count += 1;
+        }
+    }
+
+    fn pop(&mut self) -> Option<u64> {
+        self.count = self.count.checked_sub(1)?;
+        Some(self.heads[self.count])
+    }
+
+    fn heads(&self) -> &[u64] {
+        &self.heads[..self.count.min(MOST_LOOPS)]
+    }
 }
 
 /// Targets remembered, the oldest forgotten first.
@@ -40,6 +94,8 @@ const INDEXED: usize = 65_536;
 pub(crate) struct Calls {
     pub frames: Vec<Frame>,
     pub levels: usize,
+    /// Loops being turned, the innermost last.
+    pub loops: Vec<OpenLoop>,
     known: Vec<(Target, Option<Found>)>,
     oldest: usize,
     pub index: ProgramIndex,
@@ -79,8 +135,9 @@ impl ProgramIndex {
 impl Calls {
     pub fn new(levels: usize) -> Calls {
         Calls {
-            frames: Vec::with_capacity(levels + 1),
+            frames: Vec::with_capacity(levels * 2 + 1),
             levels,
+            loops: Vec::with_capacity(MOST_LOOPS),
             known: Vec::with_capacity(REMEMBERED),
             oldest: 0,
             index: ProgramIndex::default(),
@@ -118,6 +175,16 @@ impl Calls {
         self.index = ProgramIndex::default();
     }
 
+    /// Levels of subprograms that are open.
+    pub fn subprogram_level(&self) -> usize {
+        self.frames.iter().filter(|frame| frame.called_by == CalledBy::Subprogram).count()
+    }
+
+    /// Levels of macro calls that are open.
+    pub fn macro_level(&self) -> usize {
+        self.top().map_or(0, |frame| usize::from(frame.level))
+    }
+
     pub fn top(&self) -> Option<&Frame> {
         self.frames.last()
     }
@@ -127,17 +194,11 @@ impl Reading<'_> {
     /// M98: the program P, L times.
     pub fn call(&mut self, word: &Word) -> Result<Flow, Refusal> {
         let control = self.control();
-        if self.words.has(b'Q') {
-            return Err(self.words.alarm(Condition::NotYetBuilt, b'Q').into());
-        }
         let Some(number) = self.words.count(control, b'P')?.filter(|&number| number > 0) else {
             return Err(self.words.alarm_at(Condition::CallTargetMissing, word).into());
         };
-        let repeats = self.words.count(control, b'L')?.unwrap_or(1);
-        if repeats == 0 {
-            return Err(self.words.alarm(Condition::ValueOutOfRange, b'L').with([0.0, 1.0, 9999.0]).into());
-        }
-        if self.calls.frames.len() > self.calls.levels {
+        let repeats = self.repeats()?;
+        if self.calls.subprogram_level() >= self.calls.levels {
             let levels = self.calls.levels as f64;
             return Err(self.words.alarm_at(Condition::NestingTooDeep, word).with([levels, 0.0, 0.0]).into());
         }
@@ -148,7 +209,25 @@ impl Reading<'_> {
                 let values = [f64::from(number), 0.0, 0.0];
                 Err(self.words.alarm(Condition::ProgramNotFound, b'P').with(values).into())
             }
-            Some(Some(found)) => Ok(Flow::Call(found, repeats)),
+            Some(Some(found)) => {
+                let entry = self.entry(found)?;
+                Ok(Flow::Call { found, entry, repeats })
+            }
+        }
+    }
+
+    /// The block with which a called program begins: its first one, or that of Q.
+    fn entry(&self, found: Found) -> Result<Cursor, Refusal> {
+        let Some(number) = self.words.count(self.control(), b'Q')? else { return Ok(found.cursor) };
+        let Found { source, program, cursor, .. } = found;
+        let target = Target::Sequence { source, program, head: cursor, from: cursor, number };
+        match self.calls.lookup(&target) {
+            None => Err(Refusal::Locate(target)),
+            Some(None) => {
+                let values = [f64::from(number), 0.0, 0.0];
+                Err(self.words.alarm(Condition::SequenceNotFound, b'Q').with(values).into())
+            }
+            Some(Some(entry)) => Ok(entry.cursor),
         }
     }
 
@@ -162,7 +241,8 @@ impl Reading<'_> {
             return Ok(if levels > 1 { Flow::Return(None) } else { Flow::Again });
         };
         let from = if levels > 1 { goal.cursor } else { self.words.block.next };
-        let target = Target::Sequence { source: goal.source, head: goal.head, from, number };
+        let Frame { source, program, head, .. } = *goal;
+        let target = Target::Sequence { source, program, head, from, number };
         match self.calls.lookup(&target) {
             None => Err(Refusal::Locate(target)),
             Some(None) => {
@@ -180,7 +260,7 @@ fn program_of(source: SourceId, names: &mut Names, block: &Block) -> Option<(u32
     let first = block.words.first().filter(|word| word.letter == b'O')?;
     let Value::Number(number) = first.value else { return None };
     let number = number.integer().and_then(|number| u32::try_from(number).ok())?;
-    Some((number, Found { source, program: names.numbered(number), cursor: block.start }))
+    Some((number, Found { source, program: names.numbered(number), cursor: block.start, enters: false }))
 }
 
 /// Where a search is.
@@ -204,7 +284,10 @@ pub(crate) struct Search {
     passed: bool,
     /// A sequence search that has gone on from the program's head.
     from_head: bool,
-    program: ProgramId,
+    /// Loops being turned where the search began.
+    around: LoopsAround,
+    /// Loops that the scan has come into.
+    passed_loops: LoopsAround,
 }
 
 /// What a search needs or has come to.
@@ -215,13 +298,16 @@ pub(crate) enum Progress {
 }
 
 impl Search {
-    /// Begins a search; `main` is the main program's source, `program` the program a sequence number belongs to.
-    pub fn new(target: Target, main: SourceId, program: ProgramId, index: &ProgramIndex) -> Search {
+    /// Begins a search; `main` is the main program's source, `around` the loops being turned.
+    pub fn new(target: Target, main: SourceId, index: &ProgramIndex, around: LoopsAround) -> Search {
         let (stage, (cursor, passed)) = match target {
             Target::Program { from, .. } => (Stage::Scan(from), index.read_to(from)),
-            Target::Sequence { source, from, .. } => (Stage::Scan(source), (from, false)),
+            Target::Sequence { source, from, .. } | Target::LoopEnd { source, from, .. } => {
+                (Stage::Scan(source), (from, false))
+            }
         };
-        Search { target, main, stage, cursor, passed, from_head: false, program }
+        let passed_loops = LoopsAround::default();
+        Search { target, main, stage, cursor, passed, from_head: false, around, passed_loops }
     }
 
     pub fn target(&self) -> Target {
@@ -252,7 +338,7 @@ impl Search {
         loop {
             let source = match (self.stage, self.target) {
                 (Stage::Asked, Target::Program { number, .. }) => return Progress::NeedProgram { number },
-                (Stage::Asked, Target::Sequence { .. }) => return Progress::Done(None),
+                (Stage::Asked, _) => return Progress::Done(None),
                 (Stage::Scan(source) | Stage::Brought(source), _) => source,
             };
             let view = supply.view(source, self.cursor.offset);
@@ -267,9 +353,15 @@ impl Search {
                         let program = program_of(source, names, block);
                         index.take(program, source, if tape_end { self.cursor } else { block.next }, self.passed);
                     }
+                    let from = (block.start.offset - self.cursor.offset) as usize;
+                    let text = view.characters.get(from..from + block.len as usize).unwrap_or_default();
+                    if let Some(done) = self.loop_ends(source, block, text) {
+                        return Progress::Done(done);
+                    }
                     if let Some(found) = self.matches(source, names, block) {
                         return Progress::Done(Some(found));
                     }
+                    self.pass_loop(block, text);
                     let here = self.cursor;
                     self.cursor = block.next;
                     tape_end || self.section_ends(here, block)
@@ -291,20 +383,61 @@ impl Search {
             Target::Program { number, .. } => {
                 program_of(source, names, block).filter(|(found, _)| *found == number).map(|(_, found)| found)
             }
-            Target::Sequence { number, .. } => {
+            Target::Sequence { number, program, .. } => {
                 let is_it = first.letter == b'N' && number_of(first) == Some(i64::from(number));
-                is_it.then_some(Found { source, program: self.program, cursor: block.start })
+                is_it.then_some(Found { source, program, cursor: block.start, enters: self.enters() })
             }
+            Target::LoopEnd { .. } => None,
+        }
+    }
+
+    /// Whether a jump to where the scan stands leads into a loop that is not being turned.
+    fn enters(&self) -> bool {
+        let turned = |head: &u64| self.from_head && self.around.heads().contains(head);
+        !self.passed_loops.heads().iter().all(turned)
+    }
+
+    /// Keeps the account of the loops that a sequence search has come into.
+    fn pass_loop(&mut self, block: &Block, text: &[u8]) {
+        let Some(statement) = block.statement else { return };
+        match loop_mark(text, statement.kind, statement.extent) {
+            Some((true, _)) => self.passed_loops.push(block.start.offset),
+            Some((false, _)) => {
+                self.passed_loops.pop();
+            }
+            None => {}
+        }
+    }
+
+    /// A search for a loop's end: found, or (the inner `None`) the loops cross.
+    fn loop_ends(&mut self, source: SourceId, block: &Block, text: &[u8]) -> Option<Option<Found>> {
+        let Target::LoopEnd { number, .. } = self.target else { return None };
+        let statement = block.statement?;
+        match loop_mark(text, statement.kind, statement.extent)? {
+            // Here the account holds the numbers of the loops inside.
+            (true, inner) => {
+                self.around.push(u64::from(inner));
+                None
+            }
+            (false, ended) => match self.around.pop() {
+                Some(inner) if inner == u64::from(ended) => None,
+                None if ended == u32::from(number) => {
+                    Some(Some(Found { source, program: ProgramId::default(), cursor: block.next, enters: false }))
+                }
+                _ => Some(None),
+            },
         }
     }
 
     /// True if a sequence search has left its part of the program.
     fn section_ends(&self, here: Cursor, block: &Block) -> bool {
-        let Target::Sequence { head, from, .. } = self.target else { return false };
+        let next_program = block.words.first().is_some_and(|word| word.letter == b'O');
+        let Target::Sequence { head, from, .. } = self.target else {
+            return next_program && matches!(self.target, Target::LoopEnd { .. });
+        };
         if self.from_head {
             return here.offset >= from.offset;
         }
-        let next_program = block.words.first().is_some_and(|word| word.letter == b'O');
         next_program && block.start.offset > head.offset.max(from.offset.saturating_sub(1))
     }
 
@@ -318,7 +451,9 @@ impl Search {
                 self.from_head = true;
                 self.cursor = head;
                 self.passed = false;
+                self.passed_loops = LoopsAround::default();
             }
+            (Target::LoopEnd { .. }, _) => return Some(Progress::Done(None)),
             (Target::Program { number, .. }, Stage::Scan(scanned)) if scanned != self.main => {
                 if let Some(found) = index.find(self.main, number) {
                     return Some(Progress::Done(Some(found)));
@@ -329,7 +464,8 @@ impl Search {
             (Target::Program { .. }, Stage::Scan(_)) => self.stage = Stage::Asked,
             (Target::Program { number, .. }, Stage::Brought(_)) => {
                 let program = names.numbered(number);
-                return Some(Progress::Done(Some(Found { source, program, cursor: Cursor::HEAD })));
+                let cursor = Cursor::HEAD;
+                return Some(Progress::Done(Some(Found { source, program, cursor, enters: false })));
             }
             (Target::Program { .. }, Stage::Asked) => return Some(Progress::Done(None)),
         }

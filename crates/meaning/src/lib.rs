@@ -32,6 +32,7 @@ mod setting;
 mod state;
 mod supply;
 mod unknown;
+mod user_macro;
 mod word;
 
 pub use command::{Command, Finish};
@@ -40,6 +41,7 @@ pub use interpreter::Interpreter;
 pub use operation::{
     Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side, StopKind,
 };
-pub use pull::{Answer, Barrier, BarrierKind, Pull, StaleBarrier};
+pub use pull::{Answer, Barrier, BarrierKind, Pull, Quantity, StaleBarrier};
 pub use state::State;
 pub use supply::WINDOW;
+pub use user_macro::{BLANK, Variables};

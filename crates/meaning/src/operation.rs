@@ -122,6 +122,20 @@ pub struct CodeOut {
 /// A value that the program wrote.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum SetValue {
+    /// A macro variable.
+    Variable {
+        /// Its number.
+        number: u32,
+        /// Its value; a blank is [`crate::BLANK`].
+        value: f64,
+    },
+    /// A tool offset.
+    Offset {
+        /// Its number.
+        number: u32,
+        /// Its value, mm.
+        value: f64,
+    },
     /// The origin of a work system, by its G row; mm or degrees on the named axes.
     WorkOrigin {
         /// Row of the system's G code.
@@ -162,6 +176,8 @@ pub enum EndKind {
     M30,
     /// M99 in the main program.
     M99,
+    /// A loop that comes round for ever to the same state.
+    Loop,
     /// The text has no more blocks.
     Text,
 }

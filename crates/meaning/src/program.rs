@@ -34,14 +34,38 @@ impl Names {
         program
     }
 
+    /// The number of a program that is named by one, 0 for others.
+    pub fn number(&self, program: ProgramId) -> u32 {
+        self.name(program).strip_prefix('O').and_then(|digits| digits.parse().ok()).unwrap_or(0)
+    }
+
     pub fn name(&self, program: ProgramId) -> &str {
         self.names.get(program.0 as usize).map_or("", String::as_str)
     }
 }
 
+/// How a program came to be executed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) enum CalledBy {
+    /// It is the main program.
+    #[default]
+    Selection,
+    /// M98: with its caller's local variables.
+    Subprogram,
+    /// G65: with local variables of its own.
+    Macro,
+    /// G66: after a move.
+    ModalMacro,
+}
+
 /// One program in execution: the main program or a subprogram on its level.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Frame {
+    pub called_by: CalledBy,
+    /// The level of its local variables.
+    pub level: u8,
+    /// The block with which it begins, each time it is repeated.
+    pub entry: Cursor,
     pub program: ProgramId,
     pub source: SourceId,
     /// Where the program begins in its text.

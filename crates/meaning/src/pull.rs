@@ -39,14 +39,36 @@ pub enum BarrierKind {
         /// Its number.
         number: u32,
     },
+    /// Something that a macro reads of the machine.
+    NeedValue(Quantity),
     /// CYCLE START after a program stop.
     CycleStart,
     /// Whether the main program, which asks to be run again, shall be.
     RunAgain,
 }
 
-/// The answer to a barrier.
+/// What a macro can read of the machine.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Quantity {
+    /// The interface inputs UI0 to UI31 as bits of a number.
+    Inputs,
+    /// Seconds since power-on.
+    Clock,
+    /// Where an axis stands, mm or degrees in machine coordinates.
+    Position(u8),
+    /// How far an axis is behind its command, mm or degrees.
+    Deviation(u8),
+}
+
+impl Quantity {
+    /// True if motion must have ended before it can be read.
+    pub(crate) const fn waits_for_motion(self) -> bool {
+        matches!(self, Quantity::Position(_) | Quantity::Deviation(_))
+    }
+}
+
+/// The answer to a barrier.
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Answer<'a> {
     /// Bytes of a source; `last` says that it ends with them.
     Bytes(&'a [u8], bool),
@@ -54,6 +76,8 @@ pub enum Answer<'a> {
     Program(SourceId),
     /// There is no such program or text.
     NotFound,
+    /// What a macro reads.
+    Value(f64),
     /// Go on.
     Continue,
     /// Do not go on.

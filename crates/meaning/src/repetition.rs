@@ -4,11 +4,12 @@ use syntax::Cursor;
 
 use crate::coordinate::clear;
 use crate::state::State;
+use crate::user_macro::Variables;
 
 /// One earlier jump, kept for 1, 2, 4, 8 … jumps (Brent's cycle search), so that one state is enough.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Repetition {
-    seen: Option<(Cursor, State)>,
+    seen: Option<(Cursor, State, Variables)>,
     jumps: u64,
     kept_for: u64,
 }
@@ -23,19 +24,28 @@ impl Repetition {
     /// True if the program has jumped to this block in this state before: it would go on for ever.
     ///
     /// Where an axis is unknown (only while checking on) its place makes no difference.
-    pub fn comes_again(&mut self, cursor: Cursor, state: &State) -> bool {
-        let mut state = *state;
-        state.machine = clear(state.machine, state.unknown.axes);
-        state.displacement = clear(state.displacement, state.unknown.axes);
-        if self.seen.as_ref().is_some_and(|(place, earlier)| *place == cursor && *earlier == state) {
+    pub fn comes_again(&mut self, cursor: Cursor, state: &State, variables: &Variables) -> bool {
+        if let Some((place, earlier, before)) = &self.seen
+            && *place == cursor
+            && *earlier == settled(state)
+            && before == variables
+        {
             return true;
         }
         self.jumps += 1;
         if self.jumps >= self.kept_for {
-            self.seen = Some((cursor, state));
+            self.seen = Some((cursor, settled(state), variables.clone()));
             self.jumps = 0;
             self.kept_for *= 2;
         }
         false
     }
+}
+
+/// A state without what is not known in it.
+fn settled(state: &State) -> State {
+    let mut state = *state;
+    state.machine = clear(state.machine, state.unknown.axes);
+    state.displacement = clear(state.displacement, state.unknown.axes);
+    state
 }

@@ -51,6 +51,16 @@ pub struct State {
     pub displacement: Point,
     /// Data of the canned cycle.
     pub cycle: CycleData,
+    /// M last commanded.
+    pub miscellaneous: u32,
+    /// N of the last block that has one.
+    pub sequence: u32,
+    /// Where the last skip move ended, program coordinates.
+    pub skip: Point,
+    /// #3003: bit 0 the single-block switch has no effect, bit 1 codes are not waited for.
+    pub block_control: u8,
+    /// #3004: bit 0 no feed hold, bit 1 feed override 100 %, bit 2 no exact-stop check.
+    pub feed_control: u8,
     /// What cannot be known after a refused block.
     pub unknown: Unknown,
 }
@@ -74,6 +84,11 @@ impl State {
             length_due: 0.0,
             displacement: [0.0; AXES],
             cycle: CycleData::default(),
+            miscellaneous: 0,
+            sequence: 0,
+            skip: [0.0; AXES],
+            block_control: 0,
+            feed_control: 0,
             unknown: Unknown::default(),
         }
     }

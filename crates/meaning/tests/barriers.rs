@@ -6,7 +6,7 @@ use base::SourceId;
 use dialect::{Fitting, builtin_files, load_control};
 use meaning::{
     Act, Answer, AxisFacts, BarrierKind, Close, CodeRules, Interpreter, MachineFacts, Memory, OffsetTable, Pull,
-    StaleBarrier,
+    StaleBarrier, Variables,
 };
 
 fn interpreter() -> Interpreter {
@@ -17,7 +17,8 @@ fn interpreter() -> Interpreter {
         axes: b"XYZ".iter().map(|&letter| axis(letter)).collect(),
         codes: CodeRules { digits: [2, 4, 2, 3], m_after_motion: vec![5, 6, 9], b_after_motion: false },
     };
-    let memory = Memory { lengths: OffsetTable::new(99), radii: None, work: [[0.0; 8]; 6] };
+    let variables = Variables::new(&control.user_macro, control.macro_levels);
+    let memory = Memory { lengths: OffsetTable::new(99), radii: None, variables, work: [[0.0; 8]; 6] };
     let fitting = Fitting::stock(&control);
     let mut interpreter = Interpreter::new(control, fitting, facts, memory, &[0.0; 8], [0.0; 8]);
     interpreter.select(SourceId(0), "TEST");

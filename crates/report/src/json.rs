@@ -111,6 +111,12 @@ impl<'o> JsonLine<'o> {
         self
     }
 
+    /// A field without a value.
+    pub fn null(&mut self, name: &str) -> &mut Self {
+        self.field(name).extend_from_slice(b"null");
+        self
+    }
+
     /// An object inside.
     pub fn object(&mut self, name: &str, write: impl FnOnce(&mut JsonLine)) -> &mut Self {
         let out = self.field(name);

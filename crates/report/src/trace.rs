@@ -180,6 +180,18 @@ impl<'c> Tracer<'c> {
 
     fn set(&self, value: &SetValue, line: &mut JsonLine) {
         match value {
+            SetValue::Variable { number, value } => {
+                line.text("what", &format!("variable {number}"));
+                if value.is_nan() {
+                    line.null("value");
+                } else {
+                    line.number("value", *value);
+                }
+            }
+            SetValue::Offset { number, value } => {
+                line.text("what", &format!("offset {number}"));
+                line.number("value", *value);
+            }
             SetValue::WorkOrigin { system, axes, origin } => {
                 line.text("what", &format!("work {}", self.control.g_name(*system)));
                 self.axes_object("value", origin, *axes, line);
@@ -261,5 +273,6 @@ pub(crate) fn end_name(kind: EndKind) -> &'static str {
         EndKind::M30 => "M30",
         EndKind::M99 => "M99",
         EndKind::Text => "text",
+        EndKind::Loop => "loop",
     }
 }

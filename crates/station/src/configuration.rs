@@ -5,7 +5,7 @@ use std::sync::Arc;
 use base::{AXES, Point};
 use dialect::{Control, Fitting, Meaning};
 use machine::MachineFile;
-use meaning::{Memory, OffsetTable};
+use meaning::{Memory, OffsetTable, Variables};
 
 use crate::setup::{OffsetColumn, Setup};
 use crate::switches::SessionSwitches;
@@ -29,6 +29,8 @@ pub struct Inputs {
     pub eop: Option<bool>,
     /// Rewind input.
     pub rwd: Option<bool>,
+    /// The interface inputs UI0 to UI31 that macros read, one bit each.
+    pub interface: u32,
 }
 
 impl Inputs {
@@ -41,7 +43,13 @@ impl Inputs {
             "EOP" => self.eop = Some(on),
             "RWD" => self.rwd = Some(on),
             "skip" | "interrupt" | "FIN" => return Err(wrong(format!("the input `{name}` is not built yet"))),
-            _ => return Err(wrong(format!("there is no input `{name}`; the inputs are EOP and RWD"))),
+            _ => {
+                let number = name.strip_prefix("UI").and_then(|digits| digits.parse::<u32>().ok());
+                let Some(number @ 0..=31) = number else {
+                    return Err(wrong(format!("there is no input `{name}`; the inputs are EOP, RWD, UI0 to UI31")));
+                };
+                self.interface = if on { self.interface | 1 << number } else { self.interface & !(1 << number) };
+            }
         }
         Ok(())
     }
@@ -84,9 +92,10 @@ impl Configuration {
     ) -> Result<Configuration, ConfigurationError> {
         let fitting = Fitting::stock(&control);
         let lengths = OffsetTable::new(control.highest_offset);
+        let variables = Variables::new(&control.user_macro, control.macro_levels);
         let radii = (!control.common_offsets).then(|| OffsetTable::new(control.highest_offset));
         let mut configuration = Configuration {
-            memory: Memory { lengths, radii, work: [[0.0; AXES]; 6] },
+            memory: Memory { lengths, radii, variables, work: [[0.0; AXES]; 6] },
             fitting,
             machine,
             base_origin: [0.0; AXES],

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use base::{Alarm, AxisSet, Place, Point, Seconds};
 use dialect::MMeaning;
 use machine::{Event, EventKind, Machine, ResetCause, StopCause, VirtualMachine};
-use meaning::{Answer, BarrierKind, Close, EndKind, Interpreter, Pull, StopKind};
+use meaning::{Answer, BarrierKind, Close, EndKind, Interpreter, Pull, Quantity, StopKind};
 use motion::{Motion, Timed};
 use path::{Path, Shape, Shaped};
 
@@ -318,6 +318,10 @@ impl<L: Library> Session<L> {
                         return false;
                     }
                 },
+                BarrierKind::NeedValue(quantity) => {
+                    let value = self.value_of(quantity);
+                    self.motion.resume(barrier.id, Answer::Value(value))
+                }
                 // The stop was told when its block closed; here CYCLE START has been pressed.
                 BarrierKind::CycleStart => self.motion.resume(barrier.id, Answer::Continue),
                 BarrierKind::RunAgain => {
@@ -326,6 +330,17 @@ impl<L: Library> Session<L> {
                 }
             };
             debug_assert!(answered.is_ok(), "a barrier is answered in the moment it is met");
+        }
+    }
+
+    /// What a macro reads of the machine.
+    fn value_of(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Inputs => f64::from(self.inputs.interface),
+            Quantity::Clock => self.machine.time().0,
+            Quantity::Position(axis) => self.machine.position().get(usize::from(axis)).copied().unwrap_or(0.0),
+            // The virtual machine follows its command exactly.
+            Quantity::Deviation(_) => 0.0,
         }
     }
 
@@ -352,7 +367,9 @@ impl<L: Library> Session<L> {
         }
         let events = &mut self.events;
         match self.machine.execute(&self.motion.current(), &mut |event| events.push_back(event)) {
-            Ok(()) if stop_point && self.switches.single_block => self.stop(place, StopKind::SingleBlock),
+            Ok(()) if stop_point && self.switches.single_block && !self.ignores_single_block() => {
+                self.stop(place, StopKind::SingleBlock)
+            }
             Ok(()) => {}
             Err(refusal) => self.raise(self.at_the_word(refusal.alarm)),
         }
@@ -413,9 +430,16 @@ impl<L: Library> Session<L> {
             Close::Stop(kind) => self.stop(place, kind),
             Close::End(kind) => self.end(kind, place),
             // The start of the program and the end of its text are no blocks.
-            Close::Next if self.switches.single_block && place.line > 0 => self.stop(place, StopKind::SingleBlock),
+            Close::Next if self.switches.single_block && place.line > 0 && !self.ignores_single_block() => {
+                self.stop(place, StopKind::SingleBlock)
+            }
             Close::Next => {}
         }
+    }
+
+    /// #3003 bit 0: the program keeps the single-block switch from acting.
+    fn ignores_single_block(&self) -> bool {
+        self.interpreter().executing().is_some_and(|command| command.after.block_control & 1 != 0)
     }
 
     fn end(&mut self, kind: EndKind, place: Place) {
@@ -436,7 +460,7 @@ impl<L: Library> Session<L> {
         let meaning = match kind {
             EndKind::M02 => MMeaning::ProgramEnd,
             EndKind::M30 => MMeaning::TapeEnd,
-            EndKind::M99 | EndKind::Text => return false,
+            EndKind::M99 | EndKind::Text | EndKind::Loop => return false,
         };
         let line = self.configuration.control.m_of(meaning).and_then(|row| row.decoded.as_ref());
         by_hand.unwrap_or_else(|| line.is_some_and(|line| wired.contains(line)))

@@ -136,6 +136,8 @@ pub struct Block {
     pub comments: Vec<Extent>,
     /// A macro statement, after the words if there are any.
     pub statement: Option<Statement>,
+    /// A variable or expression stands in the place of some word's number.
+    pub variables: bool,
     /// What could not be read, in order of place.
     pub faults: Vec<Fault>,
 }
@@ -151,6 +153,7 @@ impl Default for Block {
             skips: Vec::with_capacity(4),
             comments: Vec::with_capacity(4),
             statement: None,
+            variables: false,
             faults: Vec::with_capacity(4),
         }
     }
@@ -176,6 +179,7 @@ impl Block {
         self.skips.clear();
         self.comments.clear();
         self.statement = None;
+        self.variables = false;
         self.faults.clear();
     }
 }

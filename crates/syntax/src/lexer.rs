@@ -219,7 +219,10 @@ impl Lexer<'_> {
                     }
                     (1 + scan.len, Value::Missing)
                 }
-                Some(Ok(len)) => (1 + len, Value::Expression),
+                Some(Ok(len)) => {
+                    self.block.variables = true;
+                    (1 + len, Value::Expression)
+                }
                 Some(Err(at)) => {
                     self.fault(Condition::MacroStatement, from, 1 + at);
                     (1 + at, Value::Missing)
@@ -357,6 +360,7 @@ impl Lexer<'_> {
         block.skips.clear();
         block.comments.clear();
         block.statement = None;
+        block.variables = false;
         block.faults.clear();
         block.len = (at - start).min(LONGEST) as u32;
         let from = (grammar.block_length as usize).min(LONGEST - 1) as u16;

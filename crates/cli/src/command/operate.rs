@@ -37,6 +37,7 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     tracer.with_io = arguments.io;
     let mut session = Session::new(configuration, setting::texts(name, &arguments.setting)?);
     session.interpreter_mut().set_loop_limit(arguments.setting.loop_limit);
+    session.interpreter_mut().tell_variables(true);
     let mut operator = Operator::new(session);
     let mut loaded: BTreeMap<String, Loaded> = BTreeMap::new();
     let mut output = Output::new();

@@ -11,6 +11,7 @@ use crate::show_alarm::show_alarm;
 
 pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
     let mut session = open(&arguments.file, &arguments.setting)?;
+    session.interpreter_mut().tell_variables(true);
     let configuration = session.configuration().clone();
     let (control, machine) = (&configuration.control, &configuration.machine);
     let mut tracer = Tracer::new(control, &machine.name, machine.axes.iter().map(|axis| axis.letter));

@@ -1,0 +1,5 @@
+GOTO 5
+WHILE [#1 LT 3] DO 1
+N5 #1=#1+1
+END 1
+M30

@@ -1,0 +1,11 @@
+#1=0
+DO 1
+#1=#1+1
+G00 X#1
+IF [#1 GE 2] GOTO 9
+END 1
+N9 WHILE [#1 LT 3] DO 1
+#1=#1+1
+X#1
+END 1
+M30

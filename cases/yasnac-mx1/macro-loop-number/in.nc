@@ -1,0 +1,3 @@
+WHILE [1 EQ 1] DO 4
+END 4
+M30

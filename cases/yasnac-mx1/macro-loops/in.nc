@@ -1,0 +1,13 @@
+#1=1
+WHILE [#1 LE 2] DO 1
+#2=1
+WHILE[#2LE2]DO2
+G00 X#1 Y#2
+#2=#2+1
+END2
+#1=#1+1
+END 1
+WHILE [#1 LT 3] DO 1
+X99.
+END 1
+M30

@@ -1,0 +1,409 @@
+//! Statements carried out by the reader: variables written, jumps taken, loops turned.
+
+use base::{Alarm, Condition, Place};
+use dialect::VariableMeaning;
+use syntax::{Cursor, Extent};
+
+use super::code::Run;
+use super::expression::{Reference, evaluate, unknown, variable_number};
+use super::statement::{Destination, Statement};
+use super::store::{Line, Target};
+use super::system::{Source, Written};
+use super::trouble::Trouble;
+use crate::command::Command;
+use crate::jump::{LoopsAround, OpenLoop, Search, Target as Goal};
+use crate::operation::SetValue;
+use crate::program::Frame;
+use crate::reader::{Note, Read, Reader};
+
+/// Statements that may be carried out ahead of a block that is being executed.
+pub(crate) const MOST_AHEAD: u32 = 4096;
+
+/// What a statement leads to.
+enum Next {
+    /// The block behind it.
+    Following,
+    /// Another place of the same program.
+    At(Cursor),
+    /// Nothing yet: something must be looked for first.
+    Wait,
+}
+
+impl Reader {
+    /// Where expressions of the block at hand read their variables.
+    pub(crate) fn source(&self) -> Source<'_> {
+        let frame = self.calls.top();
+        Source {
+            setting: &self.setting,
+            state: &self.state,
+            level: frame.map_or(0, |frame| usize::from(frame.level)),
+            program: frame.map_or(0, |frame| self.names.number(frame.program)),
+            answers: &self.answers,
+        }
+    }
+
+    /// Carries a kept statement out. `None` reads on.
+    pub(crate) fn take_statement(&mut self, index: u32, frame: &Frame, command: &mut Command) -> Option<Read> {
+        let line = *self.store.line(index)?;
+        let outcome = self.may_run(&line).and_then(|()| self.carry_out(index, &line, frame));
+        match outcome {
+            Ok(Next::Wait) => None,
+            Ok(next) => {
+                self.answers.clear();
+                if line.sequence > 0 {
+                    self.state.sequence = line.sequence;
+                }
+                if let Some(top) = self.calls.frames.last_mut() {
+                    top.cursor = match next {
+                        Next::At(cursor) => cursor,
+                        _ => line.next,
+                    };
+                    top.begun = true;
+                }
+                None
+            }
+            Err(Trouble::Needs(quantity)) => Some(Read::NeedValue(quantity)),
+            Err(Trouble::Refused(condition, extent, values)) => {
+                self.store.load(&line, &mut self.block);
+                self.refuse_statement((condition, extent, values), frame, command)
+            }
+        }
+    }
+
+    /// A statement (or a word with a variable) of the block at hand is refused.
+    pub(crate) fn refuse_statement(
+        &mut self,
+        (condition, extent, values): (Condition, Extent, [f64; 3]),
+        frame: &Frame,
+        command: &mut Command,
+    ) -> Option<Read> {
+        let place = self.place_of_block(frame);
+        let alarm = Alarm::new(condition, place, extent.span(place.block.start)).with(values);
+        let next = self.block.next;
+        self.answers.clear();
+        // Checking on, whatever variables hold from here on is doubtful.
+        let doubtful = self.variables_doubtful && alarm.condition != Condition::MacroStatement;
+        self.variables_doubtful = true;
+        self.statements = 0;
+        self.begin(next, command);
+        let read = self.refuse(alarm, command);
+        if doubtful && self.goes_on { None } else { read }
+    }
+
+    fn place_of(&self, line: &Line, frame: &Frame) -> Place {
+        Place {
+            program: self.calls.top().map_or(frame.program, |top| top.program),
+            source: frame.source,
+            line: line.start.line,
+            line_start: line.start.line_start,
+            block: base::Span { start: line.start.offset, len: line.len },
+            sequence: line.sequence,
+        }
+    }
+
+    /// Whether statements may stand here at all, and whether this is one too many without a move.
+    fn may_run(&mut self, line: &Line) -> Result<(), Trouble> {
+        if !self.setting.fitting.options.user_macro {
+            return Err(Trouble::at(Condition::MacroNotFitted, line.extent));
+        }
+        Ok(())
+    }
+
+    fn carry_out(&mut self, index: u32, line: &Line, frame: &Frame) -> Result<Next, Trouble> {
+        let Some(statement) = line.statement else { return Ok(Next::Following) };
+        let next = match statement {
+            Statement::Assign { target, place, value } => {
+                self.assign(line, frame, target, place, value)?;
+                Next::Following
+            }
+            Statement::Goto { condition, to, place } => match condition {
+                Some(condition) if !self.holds(condition)? => Next::Following,
+                _ => self.jump(index, line, frame, to, place)?,
+            },
+            Statement::Loop { condition, number } => self.enter_loop(index, line, frame, condition, number)?,
+            Statement::End { number } => self.end_loop(line, number)?,
+        };
+        if !matches!(next, Next::Wait) {
+            self.statements += 1;
+            if self.statements > self.loop_limit {
+                return Err(self.endless(line));
+            }
+        }
+        Ok(next)
+    }
+
+    /// The alarm for a loop without a move: it names the innermost loop's first line and this one.
+    fn endless(&self, line: &Line) -> Trouble {
+        let here = line.start.line;
+        let (first, last) = match self.calls.loops.last() {
+            Some(open) => (open.head.line, open.after.line.saturating_sub(1).max(here)),
+            None => (line.target.map_or(here, |target| target.cursor.line.min(here)), here),
+        };
+        let values = [self.loop_limit as f64, first as f64, last as f64];
+        Trouble::Refused(Condition::EndlessLoop, line.extent, values)
+    }
+
+    #[inline]
+    fn holds(&self, condition: Run) -> Result<bool, Trouble> {
+        Ok(evaluate(&self.store.code, condition, &self.source())? != 0.0)
+    }
+
+    fn assign(
+        &mut self,
+        line: &Line,
+        frame: &Frame,
+        target: Reference,
+        place: Extent,
+        value: Run,
+    ) -> Result<(), Trouble> {
+        let source = self.source();
+        let number = match target {
+            Reference::Number(number) => number,
+            Reference::Computed(run) => variable_number(evaluate(&self.store.code, run, &source)?, place)?,
+        };
+        let value = evaluate(&self.store.code, value, &source)?;
+        let Some(row) = self.setting.control.user_macro.variable(number) else { return Err(unknown(number, place)) };
+        let level = source.level;
+        let written = match row.meaning {
+            VariableMeaning::Local | VariableMeaning::CommonVolatile | VariableMeaning::CommonPermanent => {
+                Written::Nothing
+            }
+            _ => source.written(number, value, place)?,
+        };
+        let filled = if value.is_nan() { 0.0 } else { value };
+        match row.meaning {
+            VariableMeaning::Local => {
+                self.setting.memory.variables.set_local(level, number.min(255) as u8, value);
+            }
+            VariableMeaning::CommonVolatile => {
+                let index = self.setting.memory.variables.index(0, number);
+                self.setting.memory.variables.set_volatile(index, value);
+            }
+            VariableMeaning::CommonPermanent => {
+                let index = self.setting.memory.variables.index(1, number);
+                self.setting.memory.variables.set_permanent(index, value);
+            }
+            VariableMeaning::OutputBit | VariableMeaning::OutputWord => {
+                let outputs = source.outputs_after(row, number, filled);
+                self.setting.memory.variables.outputs = outputs;
+            }
+            VariableMeaning::Clock | VariableMeaning::RunHours => {
+                let which = usize::from(row.meaning == VariableMeaning::RunHours);
+                let shift = source.clock_shift(which, filled)?;
+                self.setting.memory.variables.clock_shift[which] = shift;
+            }
+            _ => {}
+        }
+        let told = self.write(line, number, value, written)?;
+        if self.tells_variables {
+            let place = self.place_of(line, frame);
+            self.notes.push_back(Note { before: self.blocks, place, value: told });
+        }
+        self.ahead += 1;
+        Ok(())
+    }
+
+    /// Writes what stands behind a system variable; what the trace tells of it.
+    fn write(&mut self, line: &Line, number: u32, value: f64, written: Written) -> Result<SetValue, Trouble> {
+        match written {
+            Written::Nothing => {}
+            Written::Offset(offset, mm) => {
+                self.setting.memory.lengths.set(offset, mm * 1e6);
+                return Ok(SetValue::Offset { number: offset, value: mm });
+            }
+            Written::Origin(system, axis, counts) => match system.checked_sub(1) {
+                None => self.state.common_shift[axis] = counts,
+                Some(index) => {
+                    if let Some(origin) = self.setting.memory.work.get_mut(usize::from(index)) {
+                        origin[axis] = counts;
+                    }
+                }
+            },
+            Written::BlockControl(bits) => self.state.block_control = bits,
+            Written::FeedControl(bits) => self.state.feed_control = bits,
+            Written::Alarm(number) => {
+                let end = if line.comment.len > 0 { line.comment } else { line.extent };
+                let len = (end.at + end.len).saturating_sub(line.extent.at);
+                let whole = Extent { at: line.extent.at, len };
+                return Err(Trouble::Refused(Condition::MacroUser, whole, [number, 0.0, 0.0]));
+            }
+        }
+        Ok(SetValue::Variable { number, value })
+    }
+
+    fn jump(
+        &mut self,
+        index: u32,
+        line: &Line,
+        frame: &Frame,
+        to: Destination,
+        place: Extent,
+    ) -> Result<Next, Trouble> {
+        let (number, computed) = match to {
+            Destination::Number(number) => (number, false),
+            Destination::Computed(run) => {
+                let value = evaluate(&self.store.code, run, &self.source())?;
+                (variable_number(value, place)?, true)
+            }
+        };
+        let target = match line.target {
+            Some(target) if !computed => target,
+            _ => {
+                let goal = Goal::Sequence {
+                    source: frame.source,
+                    program: frame.program,
+                    head: frame.head,
+                    from: line.next,
+                    number,
+                };
+                let found = match self.calls.lookup(&goal) {
+                    None => {
+                        self.look_for(goal);
+                        return Ok(Next::Wait);
+                    }
+                    Some(None) => {
+                        let values = [f64::from(number), 0.0, 0.0];
+                        return Err(Trouble::Refused(Condition::SequenceNotFound, place, values));
+                    }
+                    Some(Some(found)) => found,
+                };
+                let target = Target { cursor: found.cursor, enters: found.enters };
+                if !computed {
+                    self.store.set_target(index, target);
+                }
+                target
+            }
+        };
+        if target.enters {
+            let values = [f64::from(number), target.cursor.line as f64, 0.0];
+            return Err(Trouble::Refused(Condition::MacroIntoLoop, place, values));
+        }
+        let depth = self.calls.frames.len();
+        let at = target.cursor.offset;
+        self.calls.loops.retain(|open| open.depth < depth || (open.head.offset <= at && at < open.after.offset));
+        if at <= line.start.offset && self.turns_for_ever(target.cursor) {
+            return Ok(Next::Wait);
+        }
+        Ok(Next::At(target.cursor))
+    }
+
+    /// Starts a search; the statement is carried out anew when it has come to an end.
+    fn look_for(&mut self, goal: Goal) {
+        let Some(main) = self.calls.frames.first().map(|main| main.source) else { return };
+        let around = match goal {
+            // A loop's end is counted from inside it.
+            Goal::LoopEnd { .. } => LoopsAround::default(),
+            _ => LoopsAround::of(&self.calls.loops, self.calls.frames.len()),
+        };
+        self.search = Some(Search::new(goal, main, &self.calls.index, around));
+    }
+
+    fn enter_loop(
+        &mut self,
+        index: u32,
+        line: &Line,
+        frame: &Frame,
+        condition: Option<Run>,
+        number: u8,
+    ) -> Result<Next, Trouble> {
+        let depth = self.calls.frames.len();
+        let head = Cursor { skipping: false, ..line.start };
+        let open = self.calls.loops.last().is_some_and(|open| open.depth == depth && open.head.offset == head.offset);
+        let after = match line.target {
+            Some(target) => target.cursor,
+            None => {
+                let goal = Goal::LoopEnd { source: frame.source, from: line.next, number };
+                let found = match self.calls.lookup(&goal) {
+                    None => {
+                        self.look_for(goal);
+                        return Ok(Next::Wait);
+                    }
+                    Some(None) => {
+                        let values = [f64::from(number), 0.0, 0.0];
+                        return Err(Trouble::Refused(Condition::MacroLoopPair, line.extent, values));
+                    }
+                    Some(Some(found)) => found,
+                };
+                self.store.set_target(index, Target { cursor: found.cursor, enters: false });
+                found.cursor
+            }
+        };
+        let goes_in = match condition {
+            Some(condition) => self.holds(condition)?,
+            None => true,
+        };
+        if !goes_in {
+            if open {
+                self.calls.loops.pop();
+            }
+            return Ok(Next::At(after));
+        }
+        if !open {
+            let here = self.calls.loops.iter().filter(|open| open.depth == depth);
+            let (count, same) = here.fold((0, false), |(count, same), open| (count + 1, same || open.number == number));
+            if same {
+                let values = [f64::from(number), 0.0, 0.0];
+                return Err(Trouble::Refused(Condition::MacroLoopPair, line.extent, values));
+            }
+            let most = self.setting.control.user_macro.loops;
+            if count >= most {
+                return Err(Trouble::Refused(Condition::MacroLoopDepth, line.extent, [most as f64, 0.0, 0.0]));
+            }
+            self.calls.loops.push(OpenLoop { depth, number, head, after });
+        }
+        Ok(Next::Following)
+    }
+
+    fn end_loop(&mut self, line: &Line, number: u8) -> Result<Next, Trouble> {
+        let depth = self.calls.frames.len();
+        match self.calls.loops.last() {
+            Some(open) if open.depth == depth && open.number == number => {
+                let head = open.head;
+                if self.turns_for_ever(head) {
+                    return Ok(Next::Wait);
+                }
+                Ok(Next::At(head))
+            }
+            _ => Err(Trouble::Refused(Condition::MacroLoopPair, line.extent, [f64::from(number), 0.0, 0.0])),
+        }
+    }
+
+    /// A loop that has come round to the same state with the same variables would go on for ever: the program asks
+    /// whether it shall.
+    fn turns_for_ever(&mut self, head: Cursor) -> bool {
+        if !self.moved || !self.repetition.comes_again(head, &self.state, &self.setting.memory.variables) {
+            self.moved = false;
+            return false;
+        }
+        self.asks_again = Some(head);
+        true
+    }
+}
+
+impl Reader {
+    /// The value of a variable for a display; `None` is a blank, or nothing that can be shown without asking the machine.
+    pub fn variable(&self, number: u32) -> Option<f64> {
+        let value = self.source().read(number, Extent::default()).ok()?;
+        (!value.is_nan()).then_some(value)
+    }
+
+    /// Writes a local or common variable by hand.
+    pub fn set_variable(&mut self, number: u32, value: f64) -> bool {
+        let level = self.source().level;
+        let Some(row) = self.setting.control.user_macro.variable(number) else { return false };
+        let variables = &mut self.setting.memory.variables;
+        match row.meaning {
+            VariableMeaning::Local => variables.set_local(level, number.min(255) as u8, value),
+            VariableMeaning::CommonVolatile => {
+                let index = variables.index(0, number);
+                variables.set_volatile(index, value);
+            }
+            VariableMeaning::CommonPermanent => {
+                let index = variables.index(1, number);
+                variables.set_permanent(index, value);
+            }
+            _ => return false,
+        }
+        true
+    }
+}

@@ -1,0 +1,118 @@
+//! The variables that a program owns: local ones by level of call, common ones, the outputs behind some numbers.
+
+use dialect::{UserMacro, VariableMeaning};
+
+/// What a variable holds that was never written: no number at all. (A NaN, which no expression can yield.)
+pub const BLANK: f64 = f64::NAN;
+
+/// Local variables of a level.
+pub(crate) const LOCALS: usize = 33;
+
+/// Every variable that is written by programs and by hand.
+#[derive(Clone, Debug)]
+pub struct Variables {
+    /// #1 to #33 of the main program and of every level of macro calls.
+    locals: Vec<[f64; LOCALS]>,
+    /// Blank at power-on and after reset.
+    volatile: Vec<f64>,
+    /// Kept while power is off.
+    permanent: Vec<f64>,
+    /// Numbers of the first volatile and the first permanent one.
+    first: [u32; 2],
+    /// The interface outputs that programs switch.
+    pub outputs: u32,
+    /// What the clock (s) and the hour counter (h) showed when they were last written, less what they would have shown.
+    pub clock_shift: [f64; 2],
+}
+
+impl PartialEq for Variables {
+    /// Equal if they hold the same, blanks included.
+    fn eq(&self, other: &Self) -> bool {
+        let same =
+            |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
+        self.outputs == other.outputs
+            && same(&self.volatile, &other.volatile)
+            && same(&self.permanent, &other.permanent)
+            && same(&self.clock_shift, &other.clock_shift)
+            && self.locals.len() == other.locals.len()
+            && self.locals.iter().zip(&other.locals).all(|(a, b)| same(a, b))
+    }
+}
+
+impl Variables {
+    /// All blank, for a control with this user macro and so many levels of macro calls.
+    pub fn new(table: &UserMacro, levels: usize) -> Variables {
+        let range = |meaning| table.range_of(meaning).unwrap_or((1, 0));
+        let size = |(from, to): (u32, u32)| (to + 1).saturating_sub(from) as usize;
+        let (volatile, permanent) = (range(VariableMeaning::CommonVolatile), range(VariableMeaning::CommonPermanent));
+        Variables {
+            locals: vec![[BLANK; LOCALS]; levels + 1],
+            volatile: vec![BLANK; size(volatile)],
+            permanent: vec![BLANK; size(permanent)],
+            first: [volatile.0, permanent.0],
+            outputs: 0,
+            clock_shift: [0.0; 2],
+        }
+    }
+
+    /// What reset and power-on blank: local and volatile variables.
+    pub fn reset(&mut self) {
+        self.locals.fill([BLANK; LOCALS]);
+        self.volatile.fill(BLANK);
+    }
+
+    /// Takes over what survives while power is off.
+    pub fn keep_permanent(&mut self, before: &Variables) {
+        if self.permanent.len() == before.permanent.len() {
+            self.permanent.copy_from_slice(&before.permanent);
+        }
+    }
+
+    /// The index of a volatile (0) or permanent (1) variable by its number.
+    pub(crate) fn index(&self, kind: usize, number: u32) -> u16 {
+        number.saturating_sub(self.first[kind]).min(u32::from(u16::MAX)) as u16
+    }
+
+    #[inline]
+    pub(crate) fn local(&self, level: usize, index: u8) -> f64 {
+        self.locals.get(level).and_then(|set| set.get(usize::from(index).wrapping_sub(1))).copied().unwrap_or(BLANK)
+    }
+
+    #[inline]
+    pub(crate) fn set_local(&mut self, level: usize, index: u8, value: f64) {
+        if let Some(slot) = self.locals.get_mut(level).and_then(|set| set.get_mut(usize::from(index).wrapping_sub(1))) {
+            *slot = value;
+        }
+    }
+
+    #[inline]
+    pub(crate) fn volatile(&self, index: u16) -> f64 {
+        self.volatile.get(usize::from(index)).copied().unwrap_or(BLANK)
+    }
+
+    #[inline]
+    pub(crate) fn set_volatile(&mut self, index: u16, value: f64) {
+        if let Some(slot) = self.volatile.get_mut(usize::from(index)) {
+            *slot = value;
+        }
+    }
+
+    #[inline]
+    pub(crate) fn permanent(&self, index: u16) -> f64 {
+        self.permanent.get(usize::from(index)).copied().unwrap_or(BLANK)
+    }
+
+    #[inline]
+    pub(crate) fn set_permanent(&mut self, index: u16, value: f64) {
+        if let Some(slot) = self.permanent.get_mut(usize::from(index)) {
+            *slot = value;
+        }
+    }
+
+    /// The whole set of a level.
+    pub(crate) fn set_locals(&mut self, level: usize, values: &[f64; LOCALS]) {
+        if let Some(set) = self.locals.get_mut(level) {
+            *set = *values;
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Words with variables: their values become numbers before the block is given its meaning.
+
+use base::{Condition, Decimal};
+use dialect::{DwellVariable, Meaning, PointRule};
+use syntax::Value;
+
+use super::expression::evaluate;
+use super::number::{whole, with_point};
+use super::trouble::Trouble;
+use super::variables::BLANK;
+use crate::reader::Reader;
+
+impl Reader {
+    /// Puts numbers in the place of the variables of the block at hand; a word with a blank is not there at all.
+    pub(crate) fn resolve_words(&mut self, line: u32) -> Result<(), Trouble> {
+        self.word_values.clear();
+        let Some(&line) = self.store.line(line) else { return Ok(()) };
+        if !line.has_runs {
+            return Ok(());
+        }
+        let dwells = self.has_g(&[Meaning::Dwell]);
+        let (mut kept, words) = (0, self.block.words.len());
+        for index in 0..words {
+            let mut word = self.block.words[index];
+            let mut value = BLANK;
+            if let Some(run) = self.store.run_of(&line, index) {
+                if matches!(word.letter, b'N' | b'O') {
+                    return Err(Trouble::at(Condition::MacroVariableNotHere, word.extent));
+                }
+                value = evaluate(&self.store.code, run, &self.source())?;
+                if value.is_nan() {
+                    // Block-delete signs behind it stand before one word less.
+                    let behind = self.block.skips.iter_mut().filter(|skip| usize::from(skip.first_word) > kept);
+                    behind.for_each(|skip| skip.first_word -= 1);
+                    continue;
+                }
+                word.value = Value::Number(self.number_for(word.letter, value, dwells));
+            }
+            self.block.words[kept] = word;
+            self.word_values.push(value);
+            kept += 1;
+        }
+        self.block.words.truncate(kept);
+        Ok(())
+    }
+
+    /// A value as the number of a word: rounded to what its address counts, as if written with a point where one may be.
+    fn number_for(&self, letter: u8, value: f64, dwells: bool) -> Decimal {
+        let seconds = self.setting.fitting.policies.dwell_variable == DwellVariable::Seconds;
+        match self.setting.control.address(letter).map(|address| address.point) {
+            Some(PointRule::No) => whole(value),
+            Some(PointRule::Dwell) if !(dwells && seconds) => whole(value),
+            _ => with_point(value),
+        }
+    }
+
+    /// True if a G code with one of these meanings stands in the block.
+    pub(crate) fn has_g(&self, meanings: &[Meaning]) -> bool {
+        let control = &self.setting.control;
+        self.block.words.iter().any(|word| {
+            let Value::Number(number) = word.value else { return false };
+            word.letter == b'G'
+                && number.integer().and_then(|code| control.g_row(code)).is_some_and(|row| {
+                    control.g_codes.get(usize::from(row)).is_some_and(|code| meanings.contains(&code.meaning))
+                })
+        })
+    }
+}
