@@ -74,6 +74,8 @@ pub struct Roles {
     pub work: usize,
     /// Exact stop or cutting mode.
     pub stop_mode: usize,
+    /// Scaling, on a control that has it.
+    pub scaling: Option<usize>,
 }
 
 /// Tolerances and clearances that are parameters on this control: indices of the parameter rows.
@@ -124,6 +126,8 @@ pub struct Control {
     pub cycle_codes: [u32; 4],
     /// Index of the parameter, and its bit, with which G92 presets the UNIVERSAL display; `None` if none does.
     pub universal_preset: Option<(usize, u8)>,
+    /// Index of the parameter whose bits 0 to 3 choose the axes of the mirror image: X, Y, Z, the fourth.
+    pub mirror_setting: Option<usize>,
     /// Row of the base work system, if the control has one.
     pub base_system: Option<u8>,
     /// M codes the machine builder decides, those of the control, those above two digits.

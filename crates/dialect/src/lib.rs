@@ -27,7 +27,7 @@ pub use meaning::{MMeaning, Meaning};
 pub use policy::{
     ArcWithoutCentre, CycleL0Moves, CycleWithMotion, FeedModeChange, G92System, InchFeedInteger, M01OffOutput, MOver99,
     OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter,
-    ResetPointer, StrokeCheck, UnitChangeOffsets,
+    ResetPointer, ScalingBoreLevels, ScalingCompany, StrokeCheck, UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,

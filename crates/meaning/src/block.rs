@@ -119,6 +119,7 @@ pub(crate) fn read_meaning(
     reading.take_values()?;
     let flow = reading.take_codes()?;
     reading.act()?;
+    reading.check_returned()?;
     reading.finish();
     Ok(flow)
 }
@@ -235,6 +236,12 @@ impl Reading<'_> {
     /// The one-shot code, the cycle or the movement.
     fn act(&mut self) -> Result<(), Alarm> {
         self.refuse_unbuilt_modes()?;
+        if let Some(code) = self.scaling_code()
+            && self.scaling(code)?
+        {
+            return Ok(());
+        }
+        self.exchange_side();
         self.length_change = self.change_length_offset()?;
         let control = self.control();
         let roles = control.roles;
@@ -260,6 +267,9 @@ impl Reading<'_> {
             Meaning::Dwell => self.dwell(),
             Meaning::SetCoordinates => self.set_coordinates(),
             Meaning::ReferenceReturn => self.reference_return(),
+            Meaning::OtherReferenceReturn => self.other_reference_return(),
+            Meaning::ReturnFromReference => self.return_from_reference(),
+            Meaning::ReferenceCheck => self.reference_check(),
             Meaning::MachineCoordinates => self.machine_coordinates(),
             Meaning::BoltCircle | Meaning::ArcPattern | Meaning::LinePattern => self.pattern(code, cycle),
             _ => Err(self.one_shot_alarm(Condition::NotYetBuilt)),
@@ -346,12 +356,13 @@ impl Reading<'_> {
         }
         let in_base = self.control().in_force(&self.next.groups, roles.work) == Some(Meaning::BaseSystem);
         let astray = if in_base { unknown.origins } else { AxisSet::NONE };
-        let rests = [roles.distance, roles.work, roles.units, roles.cycle];
+        let rests = [roles.distance, roles.work, roles.units, roles.cycle, roles.scaling.unwrap_or(roles.work)];
         let named = self.now_known.or(absolute);
         if rests.iter().any(|&group| unknown.group(group)) {
             unknown.axes = unknown.axes.or(named);
         } else {
-            let at_reference = matches!(self.one_shot, Some((Meaning::ReferenceReturn, _)));
+            let at_reference =
+                matches!(self.one_shot, Some((Meaning::ReferenceReturn | Meaning::OtherReferenceReturn, _)));
             let known = if at_reference { self.now_known } else { absolute };
             let known = if at_reference { known } else { known.without(astray) };
             unknown.axes = unknown.axes.without(known).or(absolute.and(astray));

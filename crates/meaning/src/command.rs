@@ -20,6 +20,11 @@ pub(crate) enum Body {
         to: Point,
         kind: RapidKind,
     },
+    /// A rapid, and what is wrong with where it ends.
+    Checked {
+        to: Point,
+        alarm: Option<Alarm>,
+    },
     /// Two rapids, with a stop point between them.
     Via {
         via: Point,
@@ -91,7 +96,7 @@ pub struct Command {
     pub finish: Finish,
     /// The next block must not be read before this one is done.
     pub(crate) stops_reading: bool,
-    /// Tool radius compensation in force.
+    /// Tool radius compensation in force, as it is seen on the machine: a mirror image has exchanged left and right.
     pub(crate) side: Side,
     /// The two axes of the plane in force, while compensation is.
     pub(crate) plane: AxisSet,

@@ -126,6 +126,8 @@ impl Expansion {
                 },
                 feed: *feed,
             }),
+            (Body::Checked { to, .. }, 0) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),
+            (Body::Checked { alarm: Some(alarm), .. }, 1) => Some(Act::Alarm(*alarm)),
             (Body::Via { via, .. }, 0) => {
                 *stop_point = true;
                 Some(Act::Rapid { to: mm(via), kind: RapidKind::Checked })

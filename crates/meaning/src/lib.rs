@@ -19,6 +19,7 @@ mod facts;
 mod g_codes;
 mod interpreter;
 mod jump;
+mod mirror;
 mod motion;
 mod operation;
 mod position_offset;
@@ -28,9 +29,11 @@ mod queue;
 mod reader;
 mod reference_point;
 mod repetition;
+mod scaling;
 mod setting;
 mod state;
 mod supply;
+mod transform;
 mod unknown;
 mod word;
 
@@ -41,5 +44,7 @@ pub use operation::{
     Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side, StopKind,
 };
 pub use pull::{Answer, Barrier, BarrierKind, Pull, StaleBarrier};
+pub use reference_point::ReferenceData;
 pub use state::State;
 pub use supply::WINDOW;
+pub use transform::Transform;

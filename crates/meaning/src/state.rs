@@ -2,10 +2,12 @@
 //!
 //! Small and `Copy`: each block in the queue owns the state after it, so that RESET can go back to it.
 
-use base::{AXES, Point};
+use base::{AXES, AxisSet, Point};
 use dialect::GroupCodes;
 
 use crate::cycle::CycleData;
+use crate::reference_point::ReferenceData;
+use crate::transform::Transform;
 use crate::unknown::Unknown;
 
 /// The feed as last programmed.
@@ -51,6 +53,10 @@ pub struct State {
     pub displacement: Point,
     /// Data of the canned cycle.
     pub cycle: CycleData,
+    /// Reference points.
+    pub reference: ReferenceData,
+    /// Scale and mirror.
+    pub transform: Transform,
     /// What cannot be known after a refused block.
     pub unknown: Unknown,
 }
@@ -74,6 +80,8 @@ impl State {
             length_due: 0.0,
             displacement: [0.0; AXES],
             cycle: CycleData::default(),
+            reference: ReferenceData { established: AxisSet(u8::MAX), remembered: AxisSet::NONE, via: [0.0; AXES] },
+            transform: Transform::default(),
             unknown: Unknown::default(),
         }
     }
