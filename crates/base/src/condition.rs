@@ -151,6 +151,14 @@ conditions! {
     // The machine.
     /// The move leaves the axis' travel. Values: where it would go, lower limit, upper limit.
     TravelExceeded = "travel-exceeded",
+    /// The move enters the forbidden box of the second stored stroke. Values: where, along X, Y, Z.
+    StrokeAreaEntered = "stroke-area-entered",
+    /// The move leaves the box to which the second stored stroke keeps the axes. Values: where it would go, the box.
+    StrokeAreaLeft = "stroke-area-left",
+    /// An upper face of the stroke box is not above the lower one. Values: upper, lower.
+    StrokeBoxOrder = "stroke-box-order",
+    /// The first box of a program lacks a face.
+    StrokeBoxIncomplete = "stroke-box-incomplete",
     /// A code that the machine's wiring or builder's logic does not know. Values: code.
     MachineCodeUnknown = "machine-code-unknown",
 }

@@ -56,6 +56,8 @@ pub(crate) struct Reading<'r> {
     pub length_change: f64,
     /// The block's one-shot code and the index of its word.
     pub one_shot: Option<(Meaning, usize)>,
+    /// The axis words lead nowhere: they are the centre of scaling or the faces of a box.
+    pub words_taken: bool,
     /// Axes whose place the block determines, if nothing it rests on is unknown.
     pub now_known: AxisSet,
 }
@@ -95,6 +97,7 @@ pub(crate) fn read_meaning(
         calls_or_returns: false,
         length_change: 0.0,
         one_shot: None,
+        words_taken: false,
         now_known: AxisSet::NONE,
     };
     reading.check_letters()?;
@@ -239,6 +242,11 @@ impl Reading<'_> {
         if let Some(code) = self.scaling_code()
             && self.scaling(code)?
         {
+            self.words_taken = true;
+            return Ok(());
+        }
+        if self.stroke_box()? {
+            self.words_taken = true;
             return Ok(());
         }
         self.exchange_side();
@@ -325,7 +333,7 @@ impl Reading<'_> {
     /// Notes where the axis words stand and what is known now.
     fn finish(&mut self) {
         // The words of a dwell and of G92 lead nowhere.
-        let places = !matches!(self.one_shot, Some((Meaning::Dwell | Meaning::SetCoordinates, _)));
+        let places = !self.words_taken && !matches!(self.one_shot, Some((Meaning::Dwell | Meaning::SetCoordinates, _)));
         let mut absolute = AxisSet::NONE;
         for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
             let word = self.words.word(facts.letter);

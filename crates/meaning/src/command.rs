@@ -104,6 +104,8 @@ pub struct Command {
     pub(crate) axis_words: [Extent; AXES],
     /// Axes written absolutely.
     pub absolute: AxisSet,
+    /// The second stored stroke area is checked.
+    pub(crate) stroke_check: bool,
     /// Checking on: some axis' place before the block is unknown.
     pub(crate) from_unknown: bool,
     /// The program it belongs to, with the cursor on the block after it.

@@ -88,6 +88,7 @@ impl Expansion {
         out.place = command.place;
         out.side = command.side;
         out.plane = command.plane;
+        out.stroke_check = command.stroke_check;
         out.from_unknown = command.from_unknown;
         true
     }

@@ -85,9 +85,6 @@ impl Reading<'_> {
         for (index, _) in control.groups.iter().enumerate() {
             let unbuilt = match control.in_force(&self.next.groups, index) {
                 Some(RotationOn | ModalMacroCall) => true,
-                Some(Meaning::StrokeCheckOn) => {
-                    self.words.has_any(b"XYZIJK".iter().fold(0, |set, &letter| set | letter_bit(letter)))
-                }
                 Some(code) if code.is_cycle() => crate::cycle::steps_of(code).is_none(),
                 _ => false,
             };

@@ -32,6 +32,7 @@ mod repetition;
 mod scaling;
 mod setting;
 mod state;
+mod stroke;
 mod supply;
 mod transform;
 mod unknown;
@@ -41,7 +42,8 @@ pub use command::{Command, Finish};
 pub use facts::{AxisFacts, CodeRules, MachineFacts, Memory, OffsetTable, Switches};
 pub use interpreter::Interpreter;
 pub use operation::{
-    Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side, StopKind,
+    Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side,
+    StopKind, StrokeArea,
 };
 pub use pull::{Answer, Barrier, BarrierKind, Pull, StaleBarrier};
 pub use reference_point::ReferenceData;

@@ -7,6 +7,7 @@ use dialect::GroupCodes;
 
 use crate::cycle::CycleData;
 use crate::reference_point::ReferenceData;
+use crate::stroke::StrokeBox;
 use crate::transform::Transform;
 use crate::unknown::Unknown;
 
@@ -55,6 +56,8 @@ pub struct State {
     pub cycle: CycleData,
     /// Reference points.
     pub reference: ReferenceData,
+    /// The box of the second stored stroke area.
+    pub stroke: StrokeBox,
     /// Scale and mirror.
     pub transform: Transform,
     /// What cannot be known after a refused block.
@@ -81,6 +84,7 @@ impl State {
             displacement: [0.0; AXES],
             cycle: CycleData::default(),
             reference: ReferenceData { established: AxisSet(u8::MAX), remembered: AxisSet::NONE, via: [0.0; AXES] },
+            stroke: StrokeBox::NONE,
             transform: Transform::default(),
             unknown: Unknown::default(),
         }
