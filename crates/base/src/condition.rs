@@ -172,9 +172,33 @@ conditions! {
     /// A loop runs on without motion, dwell or stop. Values: jumps or statements counted, first line, last line.
     EndlessLoop = "endless-loop",
 
+    // Reference points.
+    /// An axis that has not been returned to its reference point since power-on.
+    ReferenceNotDone = "reference-not-done",
+    /// G27 does not end on the reference point. Values: where it ends, the reference point.
+    ReferenceNotReached = "reference-not-reached",
+    /// G27 while an offset is in force.
+    ReferenceCheckWithOffset = "reference-check-with-offset",
+    /// G29 on an axis without an intermediate point.
+    IntermediatePointMissing = "intermediate-point-missing",
+
+    // Scaling.
+    /// G51 without its factor P.
+    ScalingFactorMissing = "scaling-factor-missing",
+    /// G50 or G51 beside another G code, or G50 beside a way to go.
+    ScalingNotAlone = "scaling-not-alone",
+
     // The machine.
     /// The move leaves the axis' travel. Values: where it would go, lower limit, upper limit.
     TravelExceeded = "travel-exceeded",
+    /// The move enters the forbidden box of the second stored stroke. Values: where, along X, Y, Z.
+    StrokeAreaEntered = "stroke-area-entered",
+    /// The move leaves the box to which the second stored stroke keeps the axes. Values: where it would go, the box.
+    StrokeAreaLeft = "stroke-area-left",
+    /// An upper face of the stroke box is not above the lower one. Values: upper, lower.
+    StrokeBoxOrder = "stroke-box-order",
+    /// The first box of a program lacks a face.
+    StrokeBoxIncomplete = "stroke-box-incomplete",
     /// A code that the machine's wiring or builder's logic does not know. Values: code.
     MachineCodeUnknown = "machine-code-unknown",
 }

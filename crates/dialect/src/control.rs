@@ -77,6 +77,10 @@ pub struct Roles {
     pub stop_mode: usize,
     /// Modal macro calls.
     pub modal_macro: usize,
+    /// Scaling, on a control that has it.
+    pub scaling: Option<usize>,
+    /// The second stored stroke area, on a control that has it.
+    pub stroke: Option<usize>,
 }
 
 /// Tolerances and clearances that are parameters on this control: indices of the parameter rows.
@@ -127,6 +131,10 @@ pub struct Control {
     pub cycle_codes: [u32; 4],
     /// Index of the parameter, and its bit, with which G92 presets the UNIVERSAL display; `None` if none does.
     pub universal_preset: Option<(usize, u8)>,
+    /// Index of the parameter, and its bit, by which the second stored stroke area forbids its outside.
+    pub stroke_outside: Option<(usize, u8)>,
+    /// Index of the parameter whose bits 0 to 3 choose the axes of the mirror image: X, Y, Z, the fourth.
+    pub mirror_setting: Option<usize>,
     /// Row of the base work system, if the control has one.
     pub base_system: Option<u8>,
     /// M codes the machine builder decides, those of the control, those above two digits.

@@ -95,6 +95,8 @@ struct Head {
     cycle_codes: [u32; 4],
     base_code: Option<String>,
     universal_preset: Option<(String, u8)>,
+    stroke_outside: Option<(String, u8)>,
+    mirror_setting: Option<String>,
     groups: Vec<codes::GroupDraft>,
     options: Vec<crate::row::OptionRow>,
     policies: Vec<crate::row::PolicyRow>,
@@ -169,6 +171,10 @@ fn head(root: &mut Table) -> Head {
             (number, small(bit.integer("bit")).min(7) as u8)
         })
     });
+    let stroke_outside = root.table("stored_stroke", |t| {
+        t.table("outside", |bit| (bit.required_string("name"), small(bit.integer("bit")).min(7) as u8))
+    });
+    let mirror_setting = root.table("mirror", |t| t.integer("axes").map(|number| number.to_string()));
     Head {
         name: root.required_string("name"),
         title: root.required_string("title"),
@@ -187,6 +193,8 @@ fn head(root: &mut Table) -> Head {
         cycle_codes: cycle_codes.unwrap_or_default(),
         base_code: base_code.flatten(),
         universal_preset: universal_preset.flatten(),
+        stroke_outside: stroke_outside.flatten(),
+        mirror_setting: mirror_setting.flatten(),
         groups: root.tables("group", codes::group),
         options: root.tables("option", settings::option),
         policies: root.tables("policy", settings::policy),
@@ -222,6 +230,14 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         Some((name, bit)) => Some((parameter_index(files, &parameters, name)?, *bit)),
         None => None,
     };
+    let stroke_outside = match &head.stroke_outside {
+        Some((name, bit)) => Some((parameter_index(files, &parameters, name)?, *bit)),
+        None => None,
+    };
+    let mirror_setting = match &head.mirror_setting {
+        Some(name) => Some(parameter_index(files, &parameters, name)?),
+        None => None,
+    };
     let tolerances = Tolerances {
         cycle_clearance: parameter_index(files, &parameters, "cycle clearance")?,
         arc_radius: parameter_index(files, &parameters, "arc radius tolerance")?,
@@ -245,6 +261,8 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         common_offsets: head.common_offsets,
         cycle_codes: head.cycle_codes,
         universal_preset,
+        stroke_outside,
+        mirror_setting,
         base_system,
         m_ranges,
         groups,
@@ -344,5 +362,7 @@ fn find_roles(files: &ControlFiles, groups: &[Group], rows: &[GCode]) -> Result<
         work: of(Meaning::WorkSystem)?,
         stop_mode: of(Meaning::CuttingMode)?,
         modal_macro: of(Meaning::ModalMacroOff)?,
+        scaling: of(Meaning::ScalingOff).ok(),
+        stroke: of(Meaning::StrokeCheckOn).ok(),
     })
 }

@@ -111,6 +111,20 @@ policies! {
         /// The hundreds are dropped.
         DropHundreds = "drop-hundreds",
     }
+    /// What may stand beside G50 and G51.
+    scaling_company: ScalingCompany = "scaling-company" {
+        /// No other G code, and no way to go beside G50.
+        Alone = "alone",
+        /// Anything.
+        Any = "any",
+    }
+    /// Whether scaling changes the Z levels of boring cycles with a shift.
+    scaling_bore_levels: ScalingBoreLevels = "scaling-bore-levels" {
+        /// No.
+        Unscaled = "unscaled",
+        /// As those of every other cycle.
+        Scaled = "scaled",
+    }
     /// When a move out of the travel is found.
     stroke_check: StrokeCheck = "stroke-check" {
         /// Before the move begins.

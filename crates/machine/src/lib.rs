@@ -3,6 +3,7 @@
 //! Comes in: shapes with their durations. Goes out: [`Event`]s in the order of execution, with virtual time. Must
 //! never know: a clock, a file, what any control's codes mean. A machine with real axes is another [`Machine`].
 
+mod area;
 mod event;
 mod file;
 mod travel;

@@ -15,7 +15,9 @@ pub struct Travel {
 }
 
 /// Positions are exact to less than this; a hair's breadth beyond a limit is on it.
-const EXACTNESS: f64 = 1e-9;
+pub(crate) const EXACTNESS: f64 = 1e-9;
+/// What rounding can do to a point that is worked out, mm.
+const ROUNDING: f64 = 1e-8;
 
 /// A move that leaves the travel.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -51,90 +53,110 @@ impl Travel {
         None
     }
 
-    /// The part of a move that stays inside: the shape up to the border, and which part of the whole it is. `rates` are the axes' own rapid rates where
-    /// every axis runs at its own; `None` for a straight way.
-    pub fn until_border(&self, shape: &Shape, rates: Option<&Point>) -> (Shape, f64) {
-        match *shape {
-            Shape::Rapid { from, to, kind } => {
-                let end = match rates {
-                    Some(rates) => self.clip_by_rates(&from, &to, rates),
-                    None => self.clip(&from, &to),
-                };
-                (Shape::Rapid { from, to: end, kind }, part(&from, &end, &to))
+    /// The exit of a move, and where on its way the first axis meets its limit.
+    pub fn meets(&self, shape: &Shape, rates: Option<&Point>) -> Option<(Exit, Met)> {
+        let exit = self.exit(shape)?;
+        let met = match (shape, rates) {
+            (Shape::Rapid { from, to, .. }, Some(rates)) => self.first(from, to, |axis, way| way / rates[axis]),
+            (Shape::Rapid { from, to, .. } | Shape::Line { from, to, .. }, _) => {
+                self.first(from, to, |axis, way| way / (to[axis] - from[axis]).abs())
             }
-            Shape::Line { from, to, feed } => {
-                let end = self.clip(&from, &to);
-                (Shape::Line { from, to: end, feed }, part(&from, &end, &to))
+            (Shape::Arc { arc, .. }, _) => {
+                let (at, axis) = arc.first_exit(self.axes, &self.low, &self.high).unwrap_or((1.0, exit.axis));
+                let above = arc.at(at)[axis] > (self.low[axis] + self.high[axis]) / 2.0;
+                Met { at, axis, border: if above { self.high[axis] } else { self.low[axis] } }
             }
-            Shape::Arc { mut arc, feed } => {
-                let mut part = 1.0;
-                if let Some((s, _)) = arc.first_exit(self.axes, &self.low, &self.high) {
-                    let (to, radius) = (arc.at(s), arc.radius[0] + (arc.radius[1] - arc.radius[0]) * s);
-                    arc.to = to;
-                    arc.radius[1] = radius;
-                    arc.sweep *= s;
-                    part = s;
-                }
-                (Shape::Arc { arc, feed }, part)
-            }
-            other => (other, 1.0),
-        }
+            _ => return None,
+        };
+        Some((exit, met))
     }
 
-    /// The limit that an axis meets on its way, if it meets one.
-    fn border(&self, axis: usize, to: f64) -> Option<f64> {
-        if to < self.low[axis] {
-            Some(self.low[axis])
-        } else if to > self.high[axis] {
-            Some(self.high[axis])
-        } else {
-            None
-        }
-    }
-
-    fn clip(&self, from: &Point, to: &Point) -> Point {
-        let mut part = 1.0f64;
+    /// The first axis to meet its limit on a way from point to point; `when` counts its way up to there.
+    fn first(&self, from: &Point, to: &Point, when: impl Fn(usize, f64) -> f64) -> Met {
+        let mut first = Met { at: f64::INFINITY, axis: 0, border: f64::NAN };
         for axis in self.axes.iter() {
-            if let Some(border) = self.border(axis, to[axis]) {
-                part = part.min((border - from[axis]) / (to[axis] - from[axis]));
-            }
-        }
-        let part = part.max(0.0);
-        let mut end = *from;
-        for axis in 0..AXES {
-            end[axis] = from[axis] + (to[axis] - from[axis]) * part;
-        }
-        self.snap(end, to)
-    }
-
-    fn clip_by_rates(&self, from: &Point, to: &Point, rates: &Point) -> Point {
-        let mut time = f64::INFINITY;
-        for axis in self.axes.iter() {
-            if let Some(border) = self.border(axis, to[axis]) {
-                // An axis that stands beyond its border already does not move further out.
-                let way = (border - from[axis]) * (to[axis] - from[axis]).signum();
-                time = time.min(way.max(0.0) / rates[axis]);
-            }
-        }
-        let mut end = *to;
-        for axis in self.axes.iter() {
+            let border = match to[axis] {
+                to if to < self.low[axis] => self.low[axis],
+                to if to > self.high[axis] => self.high[axis],
+                _ => continue,
+            };
             let way = to[axis] - from[axis];
-            end[axis] = from[axis] + way.signum() * way.abs().min(rates[axis] * time);
-        }
-        self.snap(end, to)
-    }
-
-    /// Rounding must not leave the border's axis beside it.
-    fn snap(&self, mut end: Point, to: &Point) -> Point {
-        for axis in self.axes.iter() {
-            if let Some(border) = self.border(axis, to[axis])
-                && (end[axis] - border).abs() < EXACTNESS
-            {
-                end[axis] = border;
+            // An axis that stands beyond its border already does not move at all.
+            let at = if way == 0.0 { 0.0 } else { when(axis, ((border - from[axis]) * way.signum()).max(0.0)) };
+            if at < first.at {
+                first = Met { at, axis, border };
             }
+        }
+        first
+    }
+}
+
+/// Where something is met on the way of a move.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Met {
+    /// The axis that meets it.
+    pub axis: usize,
+    /// A fraction of a line or of the sweep of an arc; minutes since the start where every axis runs at its own rate.
+    pub at: f64,
+    /// Where the axis is then.
+    pub border: f64,
+}
+
+/// The part of a move before what it meets, and which part of the whole it is. `rates` are the axes' own rapid rates
+/// where every axis runs at its own; `None` for a straight way.
+pub fn until(shape: &Shape, met: &Met, rates: Option<&Point>) -> (Shape, f64) {
+    let snap = |mut end: Point| {
+        // Rounding must not leave the axis beside the border.
+        if (end[met.axis] - met.border).abs() < ROUNDING {
+            end[met.axis] = met.border;
         }
         end
+    };
+    match *shape {
+        Shape::Rapid { from, to, kind } => {
+            let end = snap(match rates {
+                Some(rates) => at_own_rates(&from, &to, rates, met.at),
+                None => along(&from, &to, met.at),
+            });
+            (Shape::Rapid { from, to: end, kind }, part(&from, &end, &to))
+        }
+        Shape::Line { from, to, feed } => {
+            let end = snap(along(&from, &to, met.at));
+            (Shape::Line { from, to: end, feed }, part(&from, &end, &to))
+        }
+        Shape::Arc { mut arc, feed } => {
+            if met.at < 1.0 {
+                let (to, radius) = (arc.at(met.at), arc.radius[0] + (arc.radius[1] - arc.radius[0]) * met.at);
+                arc.to = snap(to);
+                arc.radius[1] = radius;
+                arc.sweep *= met.at;
+            }
+            (Shape::Arc { arc, feed }, met.at.min(1.0))
+        }
+        other => (other, 1.0),
     }
+}
+
+/// The point at this fraction of a straight way.
+pub fn along(from: &Point, to: &Point, fraction: f64) -> Point {
+    let fraction = fraction.clamp(0.0, 1.0);
+    let mut point = *from;
+    for axis in 0..AXES {
+        point[axis] = from[axis] + (to[axis] - from[axis]) * fraction;
+    }
+    point
+}
+
+/// Where the axes are so many minutes after they all began to move, each at its own rate until it arrives.
+pub fn at_own_rates(from: &Point, to: &Point, rates: &Point, minutes: f64) -> Point {
+    let mut point = *to;
+    for axis in 0..AXES {
+        let way = to[axis] - from[axis];
+        if way.abs() > rates[axis] * minutes {
+            point[axis] = from[axis] + way.signum() * rates[axis] * minutes;
+        }
+    }
+    point
 }
 
 /// Which part of the way from `from` to `to` leads to `end`, along the axis that goes furthest.

@@ -5,13 +5,14 @@
 
 use base::{Alarm, AxisSet, Condition, Place, Point, Seconds};
 use dialect::StrokeCheck;
-use meaning::{CodeLine, CodeOut};
+use meaning::{CodeLine, CodeOut, SetValue, StrokeArea};
 use motion::Timed;
 use path::Shape;
 
+use crate::area::{Offence, offence};
 use crate::event::{Event, EventKind};
 use crate::file::{CodeTimes, MachineFile};
-use crate::travel::{Exit, Travel};
+use crate::travel::{Exit, Met, Travel, until};
 
 /// What executes timed shapes: the virtual machine, or one with real axes.
 ///
@@ -53,6 +54,8 @@ pub struct VirtualMachine {
     position: Point,
     time: Seconds,
     travel: Travel,
+    /// The second stored stroke area, once a program has written it.
+    area: Option<StrokeArea>,
     rates: Option<Point>,
     stroke_check: StrokeCheck,
     times: CodeTimes,
@@ -74,6 +77,7 @@ impl VirtualMachine {
             position: start,
             time: Seconds(0.0),
             travel: file.travel(),
+            area: None,
             rates: (!file.straight_rapid).then(|| file.rapid_rates()),
             stroke_check,
             times: file.times.clone(),
@@ -133,12 +137,47 @@ impl VirtualMachine {
         }
     }
 
-    fn refuse(&self, exit: Exit, place: &Place) -> Refusal {
-        let Exit { axis, reaches } = exit;
-        let alarm = Alarm::new(Condition::TravelExceeded, *place, place.block)
-            .with([reaches, self.travel.low[axis], self.travel.high[axis]])
-            .on_axis(axis);
-        Refusal { alarm }
+    /// Why a move may not be made as a whole, and where on its way.
+    fn refusal(&self, timed: &Timed<'_>) -> Option<(Refusal, Met)> {
+        if !timed.shaped.certain {
+            return None;
+        }
+        let (shape, rates) = (&timed.shaped.shape, self.rates.as_ref());
+        let place = &timed.shaped.place;
+        let alarm = |condition, values, axis: usize| Refusal {
+            alarm: Alarm::new(condition, *place, place.block).with(values).on_axis(axis),
+        };
+        let out = self.travel.meets(shape, rates).filter(|(exit, _)| !self.unknown.has(exit.axis));
+        let out = out.map(|(Exit { axis, reaches }, met)| {
+            let values = [reaches, self.travel.low[axis], self.travel.high[axis]];
+            (alarm(Condition::TravelExceeded, values, axis), met)
+        });
+        let area =
+            self.area.as_ref().filter(|area| timed.shaped.stroke_check && area.axes.and(self.unknown).is_empty());
+        // Checking on behind a refused move, where the next one begins is not where the axes are.
+        let believed = |met: &Met| met.at == 0.0 && start_of(shape) != Some(&self.position);
+        let into =
+            area.and_then(|area| offence(area, shape, rates)).filter(|(met, _)| !believed(met)).map(|(met, what)| {
+                match what {
+                    Offence::Enters(at) => (alarm(Condition::StrokeAreaEntered, self.xyz(area, &at), met.axis), met),
+                    Offence::Leaves(values) => (alarm(Condition::StrokeAreaLeft, values, met.axis), met),
+                }
+            });
+        match (out, into) {
+            (Some(out), Some(into)) if into.1.at < out.1.at => Some(into),
+            (out, into) => out.or(into),
+        }
+    }
+
+    /// The coordinates of a point along the axes of the area.
+    fn xyz(&self, area: Option<&StrokeArea>, at: &Point) -> [f64; 3] {
+        let mut values = [0.0; 3];
+        if let Some(area) = area {
+            for (value, axis) in values.iter_mut().zip(area.axes.iter()) {
+                *value = at[axis];
+            }
+        }
+        values
     }
 
     /// Runs a shape that is this part of the timed one.
@@ -166,15 +205,20 @@ impl VirtualMachine {
     }
 }
 
+fn start_of(shape: &Shape) -> Option<&Point> {
+    match shape {
+        Shape::Rapid { from, .. } | Shape::Line { from, .. } => Some(from),
+        Shape::Arc { arc, .. } => Some(&arc.from),
+        _ => None,
+    }
+}
+
 impl Machine for VirtualMachine {
     fn check(&self, timed: &Timed<'_>) -> Result<(), Refusal> {
-        if !timed.shaped.certain || self.stroke_check == StrokeCheck::AtBorder {
+        if self.stroke_check == StrokeCheck::AtBorder {
             return Ok(());
         }
-        match self.travel.exit(&timed.shaped.shape) {
-            Some(exit) if !self.unknown.has(exit.axis) => Err(self.refuse(exit, &timed.shaped.place)),
-            _ => Ok(()),
-        }
+        self.refusal(timed).map_or(Ok(()), |(refusal, _)| Err(refusal))
     }
 
     fn execute(&mut self, timed: &Timed<'_>, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal> {
@@ -186,22 +230,26 @@ impl Machine for VirtualMachine {
                 self.time += timed.duration;
                 self.tell(tell, place, EventKind::Dwell(*dwell));
             }
-            Shape::Set(value) => self.tell(tell, place, EventKind::Set(*value)),
+            Shape::Set(value) => {
+                if let SetValue::StrokeArea(area) = value {
+                    self.area = Some(*area);
+                }
+                self.tell(tell, place, EventKind::Set(*value));
+            }
             Shape::Start(groups) => self.tell(tell, place, EventKind::Start(*groups)),
             shape @ (Shape::Rapid { .. } | Shape::Line { .. } | Shape::Arc { .. }) => {
                 self.wait_until(self.hold, place, tell);
-                let exit = if timed.shaped.certain { self.travel.exit(shape) } else { None };
-                match exit {
-                    Some(exit) if !self.unknown.has(exit.axis) => {
+                match self.refusal(timed) {
+                    Some((refusal, met)) => {
                         if self.stroke_check == StrokeCheck::AtBorder {
-                            let (inside, part) = self.travel.until_border(shape, self.rates.as_ref());
+                            let (before, part) = until(shape, &met, self.rates.as_ref());
                             if part > 0.0 {
-                                self.run(&inside, timed, part, tell);
+                                self.run(&before, timed, part, tell);
                             }
                         }
-                        return Err(self.refuse(exit, place));
+                        return Err(refusal);
                     }
-                    _ => self.run(shape, timed, 1.0, tell),
+                    None => self.run(shape, timed, 1.0, tell),
                 }
             }
             Shape::Close(_) | Shape::Alarm(_) => {}

@@ -65,6 +65,8 @@ pub(crate) struct Reading<'r> {
     pub length_change: f64,
     /// The block's one-shot code and the index of its word.
     pub one_shot: Option<(Meaning, usize)>,
+    /// The axis words lead nowhere: they are the centre of scaling or the faces of a box.
+    pub words_taken: bool,
     /// Axes whose place the block determines, if nothing it rests on is unknown.
     pub now_known: AxisSet,
 }
@@ -107,6 +109,7 @@ pub(crate) fn read_meaning(
         calls_or_returns: false,
         length_change: 0.0,
         one_shot: None,
+        words_taken: false,
         now_known: AxisSet::NONE,
     };
     reading.check_letters()?;
@@ -136,6 +139,7 @@ pub(crate) fn read_meaning(
     reading.take_values()?;
     let flow = reading.take_codes()?;
     reading.act()?;
+    reading.check_returned()?;
     reading.finish();
     Ok(flow)
 }
@@ -259,6 +263,17 @@ impl Reading<'_> {
     /// The one-shot code, the cycle or the movement.
     fn act(&mut self) -> Result<(), Alarm> {
         self.refuse_unbuilt_modes()?;
+        if let Some(code) = self.scaling_code()
+            && self.scaling(code)?
+        {
+            self.words_taken = true;
+            return Ok(());
+        }
+        if self.stroke_box()? {
+            self.words_taken = true;
+            return Ok(());
+        }
+        self.exchange_side();
         self.length_change = self.change_length_offset()?;
         let control = self.control();
         let roles = control.roles;
@@ -284,6 +299,9 @@ impl Reading<'_> {
             Meaning::Dwell => self.dwell(),
             Meaning::SetCoordinates => self.set_coordinates(),
             Meaning::ReferenceReturn => self.reference_return(),
+            Meaning::OtherReferenceReturn => self.other_reference_return(),
+            Meaning::ReturnFromReference => self.return_from_reference(),
+            Meaning::ReferenceCheck => self.reference_check(),
             Meaning::MachineCoordinates => self.machine_coordinates(),
             Meaning::BoltCircle | Meaning::ArcPattern | Meaning::LinePattern => self.pattern(code, cycle),
             _ => Err(self.one_shot_alarm(Condition::NotYetBuilt)),
@@ -339,7 +357,7 @@ impl Reading<'_> {
     /// Notes where the axis words stand and what is known now.
     fn finish(&mut self) {
         // The words of a dwell and of G92 lead nowhere.
-        let places = !matches!(self.one_shot, Some((Meaning::Dwell | Meaning::SetCoordinates, _)));
+        let places = !self.words_taken && !matches!(self.one_shot, Some((Meaning::Dwell | Meaning::SetCoordinates, _)));
         let mut absolute = AxisSet::NONE;
         for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
             let word = self.words.word(facts.letter);
@@ -370,12 +388,13 @@ impl Reading<'_> {
         }
         let in_base = self.control().in_force(&self.next.groups, roles.work) == Some(Meaning::BaseSystem);
         let astray = if in_base { unknown.origins } else { AxisSet::NONE };
-        let rests = [roles.distance, roles.work, roles.units, roles.cycle];
+        let rests = [roles.distance, roles.work, roles.units, roles.cycle, roles.scaling.unwrap_or(roles.work)];
         let named = self.now_known.or(absolute);
         if rests.iter().any(|&group| unknown.group(group)) {
             unknown.axes = unknown.axes.or(named);
         } else {
-            let at_reference = matches!(self.one_shot, Some((Meaning::ReferenceReturn, _)));
+            let at_reference =
+                matches!(self.one_shot, Some((Meaning::ReferenceReturn | Meaning::OtherReferenceReturn, _)));
             let known = if at_reference { self.now_known } else { absolute };
             let known = if at_reference { known } else { known.without(astray) };
             unknown.axes = unknown.axes.without(known).or(absolute.and(astray));

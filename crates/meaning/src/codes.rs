@@ -86,6 +86,8 @@ impl Reading<'_> {
                     self.calls_or_returns = true;
                     flow = self.subprogram_end()?;
                 }
+                MMeaning::MirrorOn => self.mirror_on(),
+                MMeaning::MirrorOff => self.mirror_off(),
                 _ => return Err(self.words.alarm_at(Condition::NotYetBuilt, word).into()),
             }
             if row.to_machine {

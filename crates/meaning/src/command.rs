@@ -20,6 +20,11 @@ pub(crate) enum Body {
         to: Point,
         kind: RapidKind,
     },
+    /// A rapid, and what is wrong with where it ends.
+    Checked {
+        to: Point,
+        alarm: Option<Alarm>,
+    },
     /// Two rapids, with a stop point between them.
     Via {
         via: Point,
@@ -98,7 +103,7 @@ pub struct Command {
     pub finish: Finish,
     /// The next block must not be read before this one is done.
     pub(crate) stops_reading: bool,
-    /// Tool radius compensation in force.
+    /// Tool radius compensation in force, as it is seen on the machine: a mirror image has exchanged left and right.
     pub(crate) side: Side,
     /// The two axes of the plane in force, while compensation is.
     pub(crate) plane: AxisSet,
@@ -106,6 +111,8 @@ pub struct Command {
     pub(crate) axis_words: [Extent; AXES],
     /// Axes written absolutely.
     pub absolute: AxisSet,
+    /// The second stored stroke area is checked.
+    pub(crate) stroke_check: bool,
     /// Checking on: some axis' place before the block is unknown.
     pub(crate) from_unknown: bool,
     /// The program it belongs to, with the cursor on the block after it.

@@ -38,7 +38,7 @@ impl Reading<'_> {
 
     /// The length offset in force on an axis.
     fn length_on(&self, axis: usize) -> f64 {
-        if Some(axis) == self.setting.length_axis { self.next.length } else { 0.0 }
+        self.setting.length_on(self.next, axis)
     }
 
     /// Applies G43, G44, G49 and H: the new length offset takes the place of the old one.
@@ -116,6 +116,7 @@ impl Reading<'_> {
                 origin[axis] = machine - self.length_on(axis) - value;
                 self.next.base_origin[axis] = origin[axis] - self.next.common_shift[axis];
             }
+            self.mirror_here(axis);
         }
         if let (false, Some(base)) = (all_systems, control.base_system) {
             self.next.groups.0[control.roles.work] = base;

@@ -88,6 +88,7 @@ impl Expansion {
         out.place = command.place;
         out.side = command.side;
         out.plane = command.plane;
+        out.stroke_check = command.stroke_check;
         out.from_unknown = command.from_unknown;
         true
     }
@@ -126,6 +127,8 @@ impl Expansion {
                 },
                 feed: *feed,
             }),
+            (Body::Checked { to, .. }, 0) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),
+            (Body::Checked { alarm: Some(alarm), .. }, 1) => Some(Act::Alarm(*alarm)),
             (Body::Via { via, .. }, 0) => {
                 *stop_point = true;
                 Some(Act::Rapid { to: mm(via), kind: RapidKind::Checked })

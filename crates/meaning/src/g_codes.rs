@@ -80,14 +80,10 @@ impl Reading<'_> {
 
     /// Modal codes whose meaning is not built yet are refused where they are written.
     pub fn refuse_unbuilt_modes(&self) -> Result<(), Alarm> {
-        use Meaning::{RotationOn, ScalingOn};
         let control = self.setting.control.as_ref();
         for (index, _) in control.groups.iter().enumerate() {
             let unbuilt = match control.in_force(&self.next.groups, index) {
-                Some(ScalingOn | RotationOn) => true,
-                Some(Meaning::StrokeCheckOn) => {
-                    self.words.has_any(b"XYZIJK".iter().fold(0, |set, &letter| set | letter_bit(letter)))
-                }
+                Some(Meaning::RotationOn) => true,
                 Some(code) if code.is_cycle() => crate::cycle::steps_of(code).is_none(),
                 _ => false,
             };
@@ -109,6 +105,13 @@ impl Reading<'_> {
             Some(word) => self.words.alarm_at(condition, word).with([code as f64, 0.0, 0.0]),
             None => self.words.alarm(condition, b'G').with([code as f64, 0.0, 0.0]),
         }
+    }
+
+    /// An alarm at the block's code of a modal group.
+    pub fn group_alarm(&self, condition: Condition, group: Option<usize>) -> Alarm {
+        let row = group.map_or(dialect::NO_CODE, |group| self.next.groups.0[group]);
+        let code = self.control().g_codes.get(usize::from(row)).map_or(0, |row| i64::from(row.code));
+        self.g_alarm(condition, code)
     }
 
     /// An alarm at the block's one-shot code.

@@ -376,7 +376,15 @@ impl Interpreter {
         if state.groups.0[cycle] != before {
             state.cycle = crate::cycle::CycleData::default();
         }
+        setting.end_transform(state);
         self.reader.setting.memory.variables.reset();
+        self.start_state = self.reader.state;
+    }
+
+    /// Axes whose reference point is not established: at power-on, or after the position was lost.
+    pub fn lose_reference_points(&mut self, axes: AxisSet) {
+        let established = &mut self.reader.state.reference.established;
+        *established = established.without(axes);
         self.start_state = self.reader.state;
     }
 

@@ -19,6 +19,7 @@ mod facts;
 mod g_codes;
 mod interpreter;
 mod jump;
+mod mirror;
 mod motion;
 mod operation;
 mod position_offset;
@@ -28,9 +29,12 @@ mod queue;
 mod reader;
 mod reference_point;
 mod repetition;
+mod scaling;
 mod setting;
 mod state;
+mod stroke;
 mod supply;
+mod transform;
 mod unknown;
 mod user_macro;
 mod word;
@@ -39,9 +43,12 @@ pub use command::{Command, Finish};
 pub use facts::{AxisFacts, CodeRules, MachineFacts, Memory, OffsetTable, Switches};
 pub use interpreter::Interpreter;
 pub use operation::{
-    Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side, StopKind,
+    Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side,
+    StopKind, StrokeArea,
 };
 pub use pull::{Answer, Barrier, BarrierKind, Pull, Quantity, StaleBarrier};
+pub use reference_point::ReferenceData;
 pub use state::State;
 pub use supply::WINDOW;
+pub use transform::Transform;
 pub use user_macro::{BLANK, Variables};

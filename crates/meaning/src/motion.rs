@@ -20,11 +20,12 @@ impl Reading<'_> {
                 PositionOffsetAbsolute::Dropped => 0.0,
                 PositionOffsetAbsolute::Kept => self.next.displacement[axis],
             };
-            value + self.zero(axis) + kept
+            self.placed(axis, value) + kept
         } else {
-            now + value + self.length_change_on(axis)
+            now + self.next.transform.distance(axis, value) + self.length_change_on(axis)
         };
         if let Some(offset) = self.position_offset {
+            let minus = minus != self.next.transform.mirrored.has(axis);
             let change = offset.change(target - now, minus && value == 0.0);
             self.next.displacement[axis] += change;
             target += change;
@@ -191,7 +192,9 @@ impl Reading<'_> {
         let (to, moved) = self.targets()?;
         let units = self.units;
         let control = self.control();
-        let radius = self.words.length(control, b'R', units)?;
+        let transform = self.next.transform;
+        let clockwise = clockwise != transform.turns_over([u, v]);
+        let radius = self.words.length(control, b'R', units)?.map(|radius| transform.size([u, v], radius));
         let straight = self.setting.fitting.policies.arc_without_centre == ArcWithoutCentre::StraightLine;
         if !has_center && radius.is_none() && straight {
             self.command.body = Body::Line { to, feed: self.feed()? };
@@ -212,7 +215,7 @@ impl Reading<'_> {
             start: [from[u], from[v]],
             end: [to[u], to[v]],
             center: if has_center {
-                Some([self.centre_word(letters[0])?, self.centre_word(letters[1])?])
+                Some([self.centre_word(letters[0], u)?, self.centre_word(letters[1], v)?])
             } else {
                 None
             },
@@ -264,10 +267,12 @@ impl Reading<'_> {
         }
     }
 
-    /// A centre word in counts, lengthened by G45 to G48 as the axis of its name would be.
-    fn centre_word(&self, letter: u8) -> Result<f64, Alarm> {
+    /// A centre word along an axis in counts, lengthened by G45 to G48 as the axis of its name would be.
+    fn centre_word(&self, letter: u8, axis: usize) -> Result<f64, Alarm> {
         let Some(value) = self.words.length(self.control(), letter, self.units)? else { return Ok(0.0) };
+        let value = self.next.transform.distance(axis, value);
         let minus = self.words.number(letter)?.is_some_and(|number| number.negative);
+        let minus = minus != self.next.transform.mirrored.has(axis);
         Ok(value + self.position_offset.map_or(0.0, |offset| offset.change(value, minus)))
     }
 

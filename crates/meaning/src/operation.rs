@@ -152,6 +152,21 @@ pub enum SetValue {
         /// What it now shows.
         shown: Point,
     },
+    /// The second stored stroke area.
+    StrokeArea(StrokeArea),
+}
+
+/// A box of machine coordinates, mm.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct StrokeArea {
+    /// The axes along which it extends.
+    pub axes: AxisSet,
+    /// Lower faces.
+    pub low: Point,
+    /// Upper faces.
+    pub high: Point,
+    /// True if the axes must stay within it, false if they must stay out.
+    pub outside: bool,
 }
 
 /// Why automatic operation stops and can go on.
@@ -244,6 +259,8 @@ pub struct Operation {
     pub side: Side,
     /// The two axes of the plane in force, while compensation is.
     pub plane: AxisSet,
+    /// The second stored stroke area is checked (G22).
+    pub stroke_check: bool,
     /// Checking on: some axis' place before it is unknown, so it may be a move even where it seems to be none.
     pub from_unknown: bool,
     /// With the single-block switch on the control stops after it, though the block goes on.
@@ -259,6 +276,7 @@ impl Default for Operation {
             act: Act::Close(Close::Next),
             side: Side::Off,
             plane: AxisSet::NONE,
+            stroke_check: false,
             from_unknown: false,
             stop_point: false,
         }

@@ -671,6 +671,7 @@ pub(crate) fn empty_command(state: &State) -> Command {
         plane: AxisSet::NONE,
         axis_words: [syntax::Extent::default(); AXES],
         absolute: AxisSet::NONE,
+        stroke_check: false,
         from_unknown: false,
         frame: Frame::default(),
         here: Cursor::HEAD,

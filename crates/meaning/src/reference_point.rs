@@ -1,25 +1,138 @@
-//! G28: by way of an intermediate point to the reference point, both in rapid.
+//! G27 to G30: the reference points of the machine, the ways to them and back.
+//!
+//! The intermediate point is a programmed one and is remembered on each axis for G29, as a place on the machine; the
+//! reference points are the machine's, no offset, scale or mirror counts on the way to them. An axis that has not been
+//! returned since power-on moves by G28 only.
 
-use base::Alarm;
+use base::{Alarm, AxisSet, Condition, Point};
+use dialect::Meaning;
 
 use crate::block::Reading;
 use crate::command::Body;
+use crate::operation::Side;
+use crate::setting::Setting;
+
+/// What is known of the reference points.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ReferenceData {
+    /// Axes returned to their first reference point since power-on.
+    pub established: AxisSet,
+    /// Axes on which an intermediate point is remembered.
+    pub remembered: AxisSet,
+    /// The intermediate point of the last G28 or G30 on each axis: machine coordinates, counts.
+    pub via: Point,
+}
+
+impl Setting {
+    /// A reference point of an axis, 0 for the first; counts.
+    fn reference_point(&self, axis: usize, which: usize) -> f64 {
+        self.facts.axes.get(axis).and_then(|facts| facts.reference_points.get(which)).copied().unwrap_or(0.0)
+    }
+}
 
 impl Reading<'_> {
-    /// G28. The intermediate point is a programmed one; the reference point is the machine's, offsets do not count.
+    /// G28: by way of the intermediate point to the first reference point, which is established by it.
     pub fn reference_return(&mut self) -> Result<(), Alarm> {
+        let axes = self.return_to(0)?;
+        self.next.reference.established = self.next.reference.established.or(axes);
+        Ok(())
+    }
+
+    /// G30: as G28 to the second, third or fourth point, by P.
+    pub fn other_reference_return(&mut self) -> Result<(), Alarm> {
+        let which = match self.words.count(self.control(), b'P')? {
+            None => 2,
+            Some(which @ 2..=4) => which,
+            Some(other) => {
+                let values = [f64::from(other), 2.0, 4.0];
+                return Err(self.words.alarm(Condition::ValueOutOfRange, b'P').with(values));
+            }
+        };
+        self.return_to(which as usize - 1).map(|_| ())
+    }
+
+    fn return_to(&mut self, which: usize) -> Result<AxisSet, Alarm> {
         let axes = self.axes_named()?;
         let mut via = self.next.machine;
         let mut to = self.next.machine;
         for axis in axes.iter() {
             via[axis] = self.target(axis)?;
-            to[axis] = self.setting.facts.axes.get(axis).map_or(0.0, |facts| facts.reference_points[0]);
+            to[axis] = self.setting.reference_point(axis, which);
             self.next.displacement[axis] = 0.0;
+            self.next.reference.via[axis] = via[axis];
         }
+        self.next.reference.remembered = self.next.reference.remembered.or(axes);
         // Where the reference point is, the axis is known again, whatever came before.
         self.now_known = self.now_known.or(axes);
         self.next.machine = to;
         self.command.body = Body::Via { via, to };
+        Ok(axes)
+    }
+
+    /// G29: through the remembered intermediate point to the given one, from which an incremental word counts.
+    pub fn return_from_reference(&mut self) -> Result<(), Alarm> {
+        let axes = self.axes_named()?;
+        for axis in axes.iter() {
+            if !self.next.reference.remembered.has(axis) {
+                return Err(self.axis_alarm(Condition::IntermediatePointMissing, axis));
+            }
+            self.next.machine[axis] = self.next.reference.via[axis];
+        }
+        let via = self.next.machine;
+        let mut to = via;
+        for axis in axes.iter() {
+            to[axis] = self.target(axis)?;
+        }
+        self.now_known = self.now_known.or(axes);
+        self.next.machine = to;
+        self.command.body = Body::Via { via, to };
         Ok(())
+    }
+
+    /// G27: positions, then compares with the first reference point.
+    pub fn reference_check(&mut self) -> Result<(), Alarm> {
+        let axes = self.axes_named()?;
+        let offset = |axis: usize| {
+            let length = if Some(axis) == self.setting.length_axis { self.next.length } else { 0.0 };
+            length != 0.0 || self.next.displacement[axis] != 0.0
+        };
+        if self.command.side != Side::Off || axes.iter().any(offset) {
+            return Err(self.one_shot_alarm(Condition::ReferenceCheckWithOffset));
+        }
+        let (to, moved) = self.targets()?;
+        let [metric, _, rotary] = self.control().increments;
+        let beside = axes.iter().find(|&axis| {
+            let turns = self.setting.facts.axes.get(axis).is_some_and(|facts| facts.rotary);
+            let increment = if turns { rotary } else { metric };
+            (to[axis] - self.setting.reference_point(axis, 0)).abs() * 2.0 >= increment as f64
+        });
+        let alarm = beside.map(|axis| {
+            let point = self.setting.reference_point(axis, 0);
+            self.axis_alarm(Condition::ReferenceNotReached, axis).with([to[axis] / 1e6, point / 1e6, 0.0])
+        });
+        self.now_known = self.now_known.or(moved);
+        self.next.machine = to;
+        self.command.body = Body::Checked { to, alarm };
+        Ok(())
+    }
+
+    /// Refuses to move an axis that has not been returned since power-on, unless that is what the block does.
+    pub fn check_returned(&self) -> Result<(), Alarm> {
+        let moved = self.now_known.without(self.before.reference.established);
+        match moved.iter().next() {
+            Some(axis) if !matches!(self.one_shot, Some((Meaning::ReferenceReturn, _))) => {
+                Err(self.axis_alarm(Condition::ReferenceNotDone, axis))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// An alarm about an axis, at its word if it has one.
+    pub fn axis_alarm(&self, condition: Condition, axis: usize) -> Alarm {
+        let letter = self.setting.facts.axes.get(axis).map_or(0, |facts| facts.letter);
+        match self.words.word(letter) {
+            Some(word) => self.words.alarm_at(condition, word).on_axis(axis),
+            None => self.motion_alarm(condition).on_axis(axis),
+        }
     }
 }

@@ -2,10 +2,13 @@
 //!
 //! Small and `Copy`: each block in the queue owns the state after it, so that RESET can go back to it.
 
-use base::{AXES, Point};
+use base::{AXES, AxisSet, Point};
 use dialect::GroupCodes;
 
 use crate::cycle::CycleData;
+use crate::reference_point::ReferenceData;
+use crate::stroke::StrokeBox;
+use crate::transform::Transform;
 use crate::unknown::Unknown;
 
 /// The feed as last programmed.
@@ -61,6 +64,12 @@ pub struct State {
     pub block_control: u8,
     /// #3004: bit 0 no feed hold, bit 1 feed override 100 %, bit 2 no exact-stop check.
     pub feed_control: u8,
+    /// Reference points.
+    pub reference: ReferenceData,
+    /// The box of the second stored stroke area.
+    pub stroke: StrokeBox,
+    /// Scale and mirror.
+    pub transform: Transform,
     /// What cannot be known after a refused block.
     pub unknown: Unknown,
 }
@@ -89,6 +98,9 @@ impl State {
             skip: [0.0; AXES],
             block_control: 0,
             feed_control: 0,
+            reference: ReferenceData { established: AxisSet(u8::MAX), remembered: AxisSet::NONE, via: [0.0; AXES] },
+            stroke: StrokeBox::NONE,
+            transform: Transform::default(),
             unknown: Unknown::default(),
         }
     }

@@ -49,6 +49,13 @@ impl Unknown {
             Condition::ArcRadiusZero | Condition::ArcRadiusTooSmall | Condition::ArcEndOff => {
                 !self.axes.is_empty() || any(&[roles.motion, roles.plane, roles.distance, roles.units, roles.work])
             }
+            Condition::ReferenceNotReached => {
+                !self.axes.is_empty() || any(&[roles.motion, roles.distance, roles.units, roles.work])
+            }
+            // The refused block may have been the one that returns the axis.
+            Condition::ReferenceNotDone | Condition::IntermediatePointMissing => {
+                axis.is_some_and(|axis| self.axes.has(usize::from(axis)))
+            }
             Condition::LengthOffsetWithArc | Condition::OneShotWithMotion => self.group(roles.motion),
             Condition::PositionOffsetInCycle | Condition::CycleLevelMissing | Condition::CyclePeckMissing => {
                 self.group(roles.cycle) || self.word(b'R') || self.word(b'Z') || self.word(b'Q')

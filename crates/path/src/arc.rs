@@ -112,7 +112,7 @@ impl Arc {
     }
 
     /// The fractions of the sweep at which the plane's axes turn round, in order; at most seven.
-    fn turning_points(&self) -> impl Iterator<Item = f64> {
+    pub fn turning_points(&self) -> impl Iterator<Item = f64> {
         let quarter = TAU / 4.0;
         let direction = self.sweep.signum();
         let first =

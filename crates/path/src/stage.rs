@@ -61,6 +61,8 @@ pub struct Shaped {
     pub shape: Shape,
     /// A stop point of the single-block switch inside the block.
     pub stop_point: bool,
+    /// The second stored stroke area is checked.
+    pub stroke_check: bool,
     /// False if an earlier refusal makes its place doubtful (only while checking on).
     pub certain: bool,
 }
@@ -69,7 +71,7 @@ impl Default for Shaped {
     /// The end of no block.
     fn default() -> Self {
         let shape = Shape::Close(Close::Next);
-        Shaped { block: 0, place: Place::default(), shape, stop_point: false, certain: true }
+        Shaped { block: 0, place: Place::default(), shape, stop_point: false, stroke_check: false, certain: true }
     }
 }
 
@@ -178,6 +180,7 @@ fn shape(
     shaped.block = operation.block;
     shaped.place = operation.place;
     shaped.stop_point = operation.stop_point;
+    shaped.stroke_check = operation.stroke_check;
     shaped.certain = true;
     let moving = match &shaped.shape {
         Shape::Arc { arc, .. } => AxisSet::only(usize::from(arc.axes[0])).or(AxisSet::only(usize::from(arc.axes[1]))),

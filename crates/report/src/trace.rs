@@ -200,6 +200,14 @@ impl<'c> Tracer<'c> {
                 line.text("what", "universal");
                 self.axes_object("value", shown, *axes, line);
             }
+            SetValue::StrokeArea(area) => {
+                line.text("what", "stroke area 2");
+                line.object("value", |value| {
+                    self.axes_object("low", &area.low, area.axes, value);
+                    self.axes_object("high", &area.high, area.axes, value);
+                    value.text("forbidden", if area.outside { "outside" } else { "inside" });
+                });
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use base::{AXES, Point};
+use base::{AXES, AxisSet, Point};
 use dialect::{Control, Fitting, Meaning};
 use machine::MachineFile;
 use meaning::{Memory, OffsetTable, Variables};
@@ -70,6 +70,8 @@ pub struct Configuration {
     pub base_origin: Point,
     /// Where the axes stand at power-on, mm and degrees.
     pub start: Point,
+    /// Axes that have not been returned to their reference point since power-on.
+    pub not_returned: AxisSet,
     /// The operator's switches.
     pub switches: SessionSwitches,
     /// Signals held by hand.
@@ -100,6 +102,7 @@ impl Configuration {
             machine,
             base_origin: [0.0; AXES],
             start: [0.0; AXES],
+            not_returned: AxisSet::NONE,
             switches: SessionSwitches::default(),
             inputs: Inputs::default(),
             control,
@@ -173,6 +176,10 @@ impl Configuration {
         for &(letter, mm) in &setup.start {
             let axis = self.axis(letter)?;
             self.start[axis] = mm;
+        }
+        for &(letter, returned) in &setup.returned {
+            let axis = AxisSet::only(self.axis(letter)?);
+            self.not_returned = if returned { self.not_returned.without(axis) } else { self.not_returned.or(axis) };
         }
         for (name, number) in &setup.switches {
             self.switches.set(name, *number, true).map_err(wrong)?;

@@ -66,9 +66,10 @@ pub struct Session<L> {
 impl<L: Library> Session<L> {
     /// A control at power-on.
     pub fn new(configuration: Configuration, library: L) -> Session<L> {
-        let Configuration { control, fitting, machine, memory, base_origin, start, switches, inputs } =
+        let Configuration { control, fitting, machine, memory, base_origin, start, not_returned, switches, inputs } =
             configuration.clone();
-        let interpreter = Interpreter::new(control, fitting.clone(), machine.facts(), memory, &start, base_origin);
+        let mut interpreter = Interpreter::new(control, fitting.clone(), machine.facts(), memory, &start, base_origin);
+        interpreter.lose_reference_points(not_returned);
         let virtual_machine = VirtualMachine::new(&machine, start, fitting.policies.stroke_check);
         let motion = Motion::new(Path::new(interpreter, start), machine.limits());
         let mut session = Session {

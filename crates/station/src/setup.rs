@@ -33,6 +33,8 @@ pub struct Setup {
     pub policies: Vec<(String, String)>,
     /// Axis letter, machine coordinate at power-on.
     pub start: Vec<(u8, f64)>,
+    /// Axis letter, whether it has been returned to its reference point since power-on.
+    pub returned: Vec<(u8, bool)>,
 }
 
 /// Reads a set-up file.
@@ -62,6 +64,9 @@ pub fn read_setup(file: &str, text: &str) -> Result<Setup, Vec<DataError>> {
             .unwrap_or_default();
         setup.start = root
             .table("start", |t| t.rest().iter().filter_map(|e| Some((letter(e)?, e.number()?))).collect())
+            .unwrap_or_default();
+        setup.returned = root
+            .table("returned", |t| t.rest().iter().filter_map(|e| Some((letter(e)?, e.boolean()?))).collect())
             .unwrap_or_default();
         setup
     })

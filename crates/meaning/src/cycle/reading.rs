@@ -12,9 +12,9 @@ use crate::unknown::letter_bit;
 
 impl Reading<'_> {
     /// The initial level in program coordinates.
-    fn initial_level(&self) -> Result<f64, Alarm> {
+    fn initial_level(&self, cycle: Meaning) -> Result<f64, Alarm> {
         let axis = self.drilling_axis()?;
-        Ok(self.next.cycle.initial + self.next.length - self.zero(axis))
+        Ok(self.level_programmed(cycle, axis, self.next.cycle.initial + self.next.length))
     }
 
     fn drilling_axis(&self) -> Result<usize, Alarm> {
@@ -45,7 +45,7 @@ impl Reading<'_> {
     pub fn cycle_block(&mut self, cycle: Meaning) -> Result<(), Alarm> {
         let control = self.control();
         let (units, absolute, takes_dwell) = (self.units, self.absolute, !self.calls_or_returns);
-        let initial = self.initial_level()?;
+        let initial = self.initial_level(cycle)?;
         store(&self.words, control, units, absolute, takes_dwell, initial, &mut self.next.cycle)?;
         let levels = letter_bit(b'R') | letter_bit(b'Z');
         if !self.words.has_any(self.setting.axis_letters | levels) {
@@ -76,9 +76,9 @@ impl Reading<'_> {
         let [Some(x), Some(y)] = [b'X', b'Y'].map(|letter| self.setting.facts.axis(letter)) else {
             return Err(self.one_shot_alarm(Condition::AddressUnavailable));
         };
-        if cycle.is_some() {
+        if let Some(cycle) = cycle {
             let (units, absolute, takes_dwell) = (self.units, self.absolute, !self.calls_or_returns);
-            let initial = self.initial_level()?;
+            let initial = self.initial_level(cycle)?;
             // Here I and J belong to the pattern; R, Z, Q and P may still renew the cycle's data.
             store(&self.words, control, units, absolute, takes_dwell, initial, &mut self.next.cycle)?;
         }
@@ -93,6 +93,7 @@ impl Reading<'_> {
             level[axis] = self.target(axis)?;
             self.now_known.add(axis);
         }
+        let transform = self.next.transform;
         let wrong = |condition, letter| match self.words.has(letter) {
             true => self.words.alarm(condition, letter),
             false => self.one_shot_alarm(condition),
@@ -107,21 +108,24 @@ impl Reading<'_> {
             if size <= 0.0 {
                 return Err(wrong(Condition::PatternRadius, b'I'));
             }
-            let step = self.words.angle(control, b'K')?.unwrap_or(0.0) / 1e6;
+            let step = match code {
+                Meaning::BoltCircle => 360.0 / count as f64,
+                _ => self.words.angle(control, b'K')?.unwrap_or(0.0) / 1e6,
+            };
             Places::Circle {
                 level,
                 axes: [x as u8, y as u8],
                 center: [level[x], level[y]],
-                radius: size,
-                first_deg: angle,
-                step_deg: if code == Meaning::BoltCircle { 360.0 / count as f64 } else { step },
+                radius: transform.size([x, y], size),
+                first_deg: transform.direction([x, y], angle),
+                step_deg: if transform.turns_over([x, y]) { -step } else { step },
                 count: count.unsigned_abs() as u32,
             }
         } else {
             let (sin, cos) = sin_cos_deg(angle);
             let mut step = [0.0; AXES];
-            step[x] = size * cos;
-            step[y] = size * sin;
+            step[x] = transform.distance(x, size * cos);
+            step[y] = transform.distance(y, size * sin);
             Places::Row { first: level, step, count: count.unsigned_abs() as u32 }
         };
         self.holes(cycle, places)
@@ -179,10 +183,9 @@ impl Reading<'_> {
                 false => self.motion_alarm(Condition::CyclePeckMissing),
             });
         }
-        let zero = self.zero(drilling);
         let to_r = control.in_force(&self.next.groups, control.roles.return_level) == Some(Meaning::ReturnR);
-        holes.r = r + zero;
-        holes.bottom = bottom + zero;
+        holes.r = self.level_placed(cycle, drilling, r);
+        holes.bottom = self.level_placed(cycle, drilling, bottom);
         holes.end = if to_r { holes.r } else { data.initial + self.next.length };
         holes.peck = data.peck;
         holes.clearance = self.setting.fitting.parameter(control.tolerances.cycle_clearance) * 1e6;
