@@ -38,11 +38,13 @@ checks: cargo
 
 bench: build ## measure: speed beside a peer, memory; prints command, sample, figure, limit
 	python3 benches/check_surface.py
+	python3 benches/macro_loop.py
 	python3 benches/memory.py
 
 fuzz: cargo ## throw random programs at the reader and at the whole interpreter, FUZZ_SECONDS=60 each
 	ci/fuzz.sh read
 	ci/fuzz.sh interpret
+	ci/fuzz.sh macros
 
 cases: cargo ## write what the program now prints into cases/; the diff is the review
 	UPDATE_CASES=1 cargo test -p cyclestart --test cases --locked

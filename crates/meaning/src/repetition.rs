@@ -34,7 +34,14 @@ impl Repetition {
         }
         self.jumps += 1;
         if self.jumps >= self.kept_for {
-            self.seen = Some((cursor, settled(state), variables.clone()));
+            match &mut self.seen {
+                Some((place, earlier, before)) => {
+                    *place = cursor;
+                    *earlier = settled(state);
+                    before.copy_from(variables);
+                }
+                None => self.seen = Some((cursor, settled(state), variables.clone())),
+            }
             self.jumps = 0;
             self.kept_for *= 2;
         }

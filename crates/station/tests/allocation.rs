@@ -150,3 +150,15 @@ fn offsets_and_codes_allocate_nothing() {
         _ => "/2G04P10M08".to_owned(),
     });
 }
+
+#[test]
+fn macros_allocate_nothing() {
+    check("macros", |n| match n % 6 {
+        0 => "#1=0\nWHILE[#1LT2]DO1\nG91G01X1.F500\n#1=#1+1\nEND1\nG90X0".to_owned(),
+        1 => format!("#10{}=SIN[{n}]*COS[#1]\nG00X#101", n % 10),
+        2 => format!("IF[#1GT{n}]GOTO{n}\nG01Y[#1*2]F500.\nN{n}Y0"),
+        3 => "G65P2A1.I2.\nG00X#100".to_owned(),
+        4 => "#[101]=#5001\nM08".to_owned(),
+        _ => "#2001=#4003\nG04P10".to_owned(),
+    });
+}

@@ -151,8 +151,11 @@ impl<'c> Compiler<'c> {
             return Ok(Reference::Computed(Run { from: start, to: self.code.len() as u32 }));
         }
         let Some(number) = scanner.whole() else { return Err(scanner.unreadable()) };
-        match self.control.user_macro.variable(number) {
-            Some(_) => Ok(Reference::Number(number)),
+        match self.control.user_macro.variable(number).map(|row| row.meaning) {
+            Some(VariableMeaning::Local) => Ok(Reference::Local(number.min(255) as u8)),
+            Some(VariableMeaning::CommonVolatile) => Ok(Reference::Volatile(self.variables.index(0, number))),
+            Some(VariableMeaning::CommonPermanent) => Ok(Reference::Permanent(self.variables.index(1, number))),
+            Some(_) => Ok(Reference::System(number)),
             None => Err(unknown(number, scanner.since(from))),
         }
     }
@@ -221,7 +224,10 @@ impl<'c> Compiler<'c> {
                 let reference = self.variable(scanner)?;
                 let place = scanner.since(from);
                 match reference {
-                    Reference::Number(number) => self.read(number, place),
+                    Reference::Local(index) => self.push(Op::Local(index), place),
+                    Reference::Volatile(index) => self.push(Op::Volatile(index), place),
+                    Reference::Permanent(index) => self.push(Op::Permanent(index), place),
+                    Reference::System(number) => self.read(number, place),
                     Reference::Computed(_) => self.push(Op::Indirect, place),
                 }
             }
@@ -242,13 +248,7 @@ impl<'c> Compiler<'c> {
         if !row.read {
             return Err(Trouble::Refused(Condition::MacroWriteOnly, place, [f64::from(number), 0.0, 0.0]));
         }
-        let op = match row.meaning {
-            VariableMeaning::Local => Op::Local(number.min(255) as u8),
-            VariableMeaning::CommonVolatile => Op::Volatile(self.variables.index(0, number)),
-            VariableMeaning::CommonPermanent => Op::Permanent(self.variables.index(1, number)),
-            _ => Op::System(number),
-        };
-        self.push(op, place)
+        self.push(Op::System(number), place)
     }
 
     fn function(&mut self, scanner: &mut Scanner) -> Result<(), Trouble> {
@@ -318,8 +318,14 @@ fn comparison(scanner: &mut Scanner) -> Option<Comparison> {
 /// Which variable is meant.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Reference {
-    /// The one of this number, which the control has.
-    Number(u32),
+    /// A local one.
+    Local(u8),
+    /// A common one, by its index.
+    Volatile(u16),
+    /// A common one, by its index.
+    Permanent(u16),
+    /// The system variable of this number, which the control has.
+    System(u32),
     /// The one whose number this run gives.
     Computed(Run),
 }

@@ -37,7 +37,8 @@ impl Reader {
             setting: &self.setting,
             state: &self.state,
             level: frame.map_or(0, |frame| usize::from(frame.level)),
-            program: frame.map_or(0, |frame| self.names.number(frame.program)),
+            program: frame.map_or_else(Default::default, |frame| frame.program),
+            names: &self.names,
             answers: &self.answers,
         }
     }
@@ -84,7 +85,6 @@ impl Reader {
         // Checking on, whatever variables hold from here on is doubtful.
         let doubtful = self.variables_doubtful && alarm.condition != Condition::MacroStatement;
         self.variables_doubtful = true;
-        self.statements = 0;
         self.begin(next, command);
         let read = self.refuse(alarm, command);
         if doubtful && self.goes_on { None } else { read }
@@ -157,32 +157,48 @@ impl Reader {
         value: Run,
     ) -> Result<(), Trouble> {
         let source = self.source();
-        let number = match target {
-            Reference::Number(number) => number,
-            Reference::Computed(run) => variable_number(evaluate(&self.store.code, run, &source)?, place)?,
-        };
-        let value = evaluate(&self.store.code, value, &source)?;
-        let Some(row) = self.setting.control.user_macro.variable(number) else { return Err(unknown(number, place)) };
         let level = source.level;
-        let written = match row.meaning {
-            VariableMeaning::Local | VariableMeaning::CommonVolatile | VariableMeaning::CommonPermanent => {
-                Written::Nothing
-            }
-            _ => source.written(number, value, place)?,
+        let result = evaluate(&self.store.code, value, &source)?;
+        let number = match target {
+            Reference::Computed(run) => variable_number(evaluate(&self.store.code, run, &source)?, place)?,
+            Reference::Local(index) => u32::from(index),
+            Reference::Volatile(index) => source.variables().number(0, index),
+            Reference::Permanent(index) => source.variables().number(1, index),
+            Reference::System(number) => number,
         };
+        let variables = &mut self.setting.memory.variables;
+        let told = match target {
+            Reference::Local(index) => {
+                variables.set_local(level, index, result);
+                SetValue::Variable { number, value: result }
+            }
+            Reference::Volatile(index) => {
+                variables.set_volatile(index, result);
+                SetValue::Variable { number, value: result }
+            }
+            Reference::Permanent(index) => {
+                variables.set_permanent(index, result);
+                SetValue::Variable { number, value: result }
+            }
+            Reference::Computed(_) | Reference::System(_) => self.assign_by_number(line, number, result, place)?,
+        };
+        if self.tells_variables {
+            let place = self.place_of(line, frame);
+            self.notes.push_back(Note { before: self.blocks, place, value: told });
+        }
+        self.ahead += 1;
+        Ok(())
+    }
+
+    /// Writes any variable; what the trace tells of it.
+    fn assign_by_number(&mut self, line: &Line, number: u32, value: f64, place: Extent) -> Result<SetValue, Trouble> {
+        let source = self.source();
+        let Some(row) = self.setting.control.user_macro.variable(number) else { return Err(unknown(number, place)) };
+        if !row.write {
+            return Err(Trouble::Refused(Condition::MacroReadOnly, place, [f64::from(number), 0.0, 0.0]));
+        }
         let filled = if value.is_nan() { 0.0 } else { value };
         match row.meaning {
-            VariableMeaning::Local => {
-                self.setting.memory.variables.set_local(level, number.min(255) as u8, value);
-            }
-            VariableMeaning::CommonVolatile => {
-                let index = self.setting.memory.variables.index(0, number);
-                self.setting.memory.variables.set_volatile(index, value);
-            }
-            VariableMeaning::CommonPermanent => {
-                let index = self.setting.memory.variables.index(1, number);
-                self.setting.memory.variables.set_permanent(index, value);
-            }
             VariableMeaning::OutputBit | VariableMeaning::OutputWord => {
                 let outputs = source.outputs_after(row, number, filled);
                 self.setting.memory.variables.outputs = outputs;
@@ -192,21 +208,21 @@ impl Reader {
                 let shift = source.clock_shift(which, filled)?;
                 self.setting.memory.variables.clock_shift[which] = shift;
             }
-            _ => {}
+            VariableMeaning::Local | VariableMeaning::CommonVolatile | VariableMeaning::CommonPermanent => {
+                self.set_variable(number, value);
+            }
+            _ => {
+                let written = source.written(number, value, place)?;
+                return self.write(line, number, value, written);
+            }
         }
-        let told = self.write(line, number, value, written)?;
-        if self.tells_variables {
-            let place = self.place_of(line, frame);
-            self.notes.push_back(Note { before: self.blocks, place, value: told });
-        }
-        self.ahead += 1;
-        Ok(())
+        Ok(SetValue::Variable { number, value })
     }
 
     /// Writes what stands behind a system variable; what the trace tells of it.
     fn write(&mut self, line: &Line, number: u32, value: f64, written: Written) -> Result<SetValue, Trouble> {
         match written {
-            Written::Nothing => {}
+            Written::Nothing => return Ok(SetValue::Variable { number, value }),
             Written::Offset(offset, mm) => {
                 self.setting.memory.lengths.set(offset, mm * 1e6);
                 return Ok(SetValue::Offset { number: offset, value: mm });

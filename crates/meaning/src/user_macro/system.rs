@@ -3,13 +3,14 @@
 //! What the reader itself knows (modal state, offsets, end points) is read at once; inputs, the clock and present
 //! positions are asked of the machine through a barrier and read again from its answers.
 
-use base::{AXES, Condition, units::NM_PER_INCH};
+use base::{AXES, Condition, ProgramId, units::NM_PER_INCH};
 use dialect::{Meaning, VariableMeaning, VariableRow};
 use syntax::Extent;
 
 use super::expression::unknown;
 use super::trouble::Trouble;
 use super::variables::{BLANK, Variables};
+use crate::program::Names;
 use crate::pull::Quantity;
 use crate::setting::Setting;
 use crate::state::State;
@@ -20,8 +21,9 @@ pub(crate) struct Source<'s> {
     pub state: &'s State,
     /// The level of local variables.
     pub level: usize,
-    /// The running program's number.
-    pub program: u32,
+    /// The running program.
+    pub program: ProgramId,
+    pub names: &'s Names,
     /// What the machine has answered for this statement.
     pub answers: &'s [(Quantity, f64)],
 }
@@ -146,7 +148,7 @@ impl Source<'_> {
             b'H' => f64::from(state.h),
             b'M' => f64::from(state.miscellaneous),
             b'N' => f64::from(state.sequence),
-            b'O' => f64::from(self.program),
+            b'O' => f64::from(self.names.number(self.program)),
             b'S' => f64::from(state.spindle),
             _ => f64::from(state.tool),
         }

@@ -55,6 +55,19 @@ impl Variables {
         }
     }
 
+    /// Takes everything over from another one of the same control, without allocating.
+    pub(crate) fn copy_from(&mut self, other: &Variables) {
+        if self.locals.len() != other.locals.len() {
+            *self = other.clone();
+            return;
+        }
+        self.locals.copy_from_slice(&other.locals);
+        self.volatile.copy_from_slice(&other.volatile);
+        self.permanent.copy_from_slice(&other.permanent);
+        self.outputs = other.outputs;
+        self.clock_shift = other.clock_shift;
+    }
+
     /// What reset and power-on blank: local and volatile variables.
     pub fn reset(&mut self) {
         self.locals.fill([BLANK; LOCALS]);
@@ -71,6 +84,11 @@ impl Variables {
     /// The index of a volatile (0) or permanent (1) variable by its number.
     pub(crate) fn index(&self, kind: usize, number: u32) -> u16 {
         number.saturating_sub(self.first[kind]).min(u32::from(u16::MAX)) as u16
+    }
+
+    /// The number of the volatile (0) or permanent (1) variable of this index.
+    pub(crate) fn number(&self, kind: usize, index: u16) -> u32 {
+        self.first[kind] + u32::from(index)
     }
 
     #[inline]
