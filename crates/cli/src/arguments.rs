@@ -178,6 +178,12 @@ pub struct PlotArguments {
 pub struct ControlsArguments {
     /// The control whose tables are printed
     pub name: Option<String>,
+    /// Which rows of its tables are guarded by a case of the corpus, which wait, which have none (exit code 1)
+    #[arg(long, requires = "name")]
+    pub coverage: bool,
+    /// The folder of the corpus, for --coverage
+    #[arg(long, value_name = "DIR", default_value = "cases")]
+    pub cases: PathBuf,
     /// Take the controls' tables from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub controls: Option<PathBuf>,

@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod controls;
+pub mod coverage;
 pub mod operate;
 pub mod plot;
 pub mod run;

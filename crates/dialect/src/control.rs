@@ -4,8 +4,10 @@ use syntax::Grammar;
 
 use crate::address::Address;
 use crate::alarm::{AlarmRow, Sentences};
+use crate::fitting::FROM_AXES;
 use crate::meaning::{MMeaning, Meaning};
-use crate::row::{GCode, MCode, OptionRow, Origin, ParameterRow, PolicyRow};
+use crate::policy::ASKED;
+use crate::row::{Division, GCode, MCode, OptionRow, Origin, ParameterRow, PolicyRow};
 use crate::user_macro::UserMacro;
 
 /// The most modal groups a control can have.
@@ -202,6 +204,13 @@ impl Control {
     /// The address letter, if the control has it.
     pub fn address(&self, letter: u8) -> Option<&Address> {
         self.addresses.get(usize::from(letter.wrapping_sub(b'A')))?.as_ref()
+    }
+
+    /// True if an option changes what the program does: it gives codes, or code asks for it.
+    pub fn asks_for(&self, option: &str) -> bool {
+        let index = self.options.iter().position(|row| row.name == option);
+        let gives = |code: &GCode| index.is_some_and(|index| code.division == Division::Option(index as u8));
+        ASKED.contains(&option) || FROM_AXES.contains(&option) || self.g_codes.iter().any(gives)
     }
 
     /// A G row's name as programs write it: `G01`.

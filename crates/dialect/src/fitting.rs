@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::control::{Control, GroupCodes, GroupRule, MOST_GROUPS, NO_CODE};
-use crate::policy::{ASKED, KNOWN, Options, Policies};
+use crate::policy::{KNOWN, Options, Policies};
 use crate::row::{Division, ParameterKind};
 
 /// A parameter as a user sets it.
@@ -41,7 +41,7 @@ pub struct Fitting {
 }
 
 /// Options that the machine's axes decide.
-const FROM_AXES: &[&str] = &["fourth-axis"];
+pub(crate) const FROM_AXES: &[&str] = &["fourth-axis"];
 
 fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> FittingError {
     let known: Vec<_> = known.collect();
@@ -74,9 +74,7 @@ impl Fitting {
         let Some(index) = control.options.iter().position(|row| row.name == name) else {
             return Err(unknown("option", name, control.options.iter().map(|row| row.name.as_str())));
         };
-        let gives_codes = control.g_codes.iter().any(|code| code.division == Division::Option(index as u8));
-        let acts = gives_codes || ASKED.contains(&name) || FROM_AXES.contains(&name);
-        if !acts && fitted != control.options[index].default {
+        if !control.asks_for(name) && fitted != control.options[index].default {
             let state = if fitted { "on" } else { "off" };
             return Err(FittingError(format!("option `{name}` = {state} is not built yet: it would have no effect")));
         }

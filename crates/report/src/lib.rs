@@ -3,6 +3,7 @@
 //! Comes in: events and diagnostics as values. Goes out: text in a buffer. Must never know: where it is printed.
 
 mod control_table;
+mod coverage;
 mod excerpt;
 mod face;
 mod json;
@@ -10,6 +11,7 @@ mod summary;
 mod trace;
 
 pub use control_table::{control_list, control_table};
+pub use coverage::{CoveredRow, CoveringCase, coverage, rows_of};
 pub use excerpt::Excerpt;
 pub use face::{Format, begin, end, render, separator};
 pub use json::{JsonLine, push_number};
