@@ -182,6 +182,16 @@ conditions! {
     /// G29 on an axis without an intermediate point.
     IntermediatePointMissing = "intermediate-point-missing",
 
+    // The skip signal.
+    /// G31, or centring, while tool radius compensation is active.
+    SkipInCompensation = "skip-in-compensation",
+    /// A skip move went to its end without the signal.
+    SkipSignalMissing = "skip-signal-missing",
+    /// Centring found no wall within its distance.
+    CentringSignalMissing = "centring-signal-missing",
+    /// Centring without the distance within which the walls are.
+    CentringLimitMissing = "centring-limit-missing",
+
     // Scaling.
     /// G51 without its factor P.
     ScalingFactorMissing = "scaling-factor-missing",

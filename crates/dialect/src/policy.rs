@@ -111,6 +111,13 @@ policies! {
         /// The hundreds are dropped.
         DropHundreds = "drop-hundreds",
     }
+    /// What a skip move is that ends without the signal.
+    skip_without_signal: SkipWithoutSignal = "skip-without-signal" {
+        /// It goes to its end point.
+        EndPoint = "end-point",
+        /// It goes there and alarms.
+        Alarm = "alarm",
+    }
     /// What may stand beside G50 and G51.
     scaling_company: ScalingCompany = "scaling-company" {
         /// No other G code, and no way to go beside G50.

@@ -36,6 +36,8 @@ pub struct Interpreter {
     /// The close that waits for the answer whether the main program runs again.
     runs_again: Option<bool>,
     waits_for_start: bool,
+    /// The operation handed out ends where the skip signal comes.
+    measures: bool,
     /// The state in which the selected program begins.
     start_state: State,
 }
@@ -78,6 +80,7 @@ impl Interpreter {
             started: false,
             runs_again: None,
             waits_for_start: false,
+            measures: false,
             start_state: state,
         }
     }
@@ -193,6 +196,10 @@ impl Interpreter {
             return Pull::Barrier(barrier);
         }
         loop {
+            if self.measures {
+                self.measures = false;
+                return Pull::Barrier(self.ask(BarrierKind::SkipPosition));
+            }
             if self.waits_for_start {
                 self.waits_for_start = false;
                 return Pull::Barrier(self.ask(BarrierKind::CycleStart));
@@ -239,6 +246,7 @@ impl Interpreter {
             self.reader.ahead = 0;
             return None;
         }
+        self.measures = self.operation.until_signal;
         if let Act::Close(close) = self.operation.act {
             if matches!(command.finish, Finish::End(EndKind::M99 | EndKind::Loop)) {
                 match self.runs_again.take() {
@@ -334,11 +342,21 @@ impl Interpreter {
                 let value = if let Answer::Value(value) = answer { value } else { 0.0 };
                 self.reader.answers.push((quantity, value));
             }
+            (BarrierKind::SkipPosition, answer) => self.measured(answer),
             (BarrierKind::RunAgain, answer) => self.runs_again = Some(answer == Answer::Continue),
             (BarrierKind::CycleStart, Answer::Stop) => self.reader.end(),
             (BarrierKind::CycleStart, _) => {}
         }
         Ok(())
+    }
+
+    /// A move that waits for the skip signal has ended. Nothing has been read beyond its block.
+    fn measured(&mut self, answer: Answer) {
+        let Answer::Stands(at, signalled) = answer else { return };
+        if let (Some(expansion), Some(command)) = (self.expansion.as_mut(), self.queue.front_mut()) {
+            crate::skip::measured(&self.reader.setting, expansion, command, &at, signalled);
+            (self.reader.state.machine, self.reader.state.skip) = (command.after.machine, command.after.skip);
+        }
     }
 
     /// Takes bytes in. Fewer than asked for are gathered and the rest asked for, so that any answer leads on; nothing
@@ -444,6 +462,7 @@ impl Interpreter {
         self.gathered.clear();
         self.runs_again = None;
         self.waits_for_start = false;
+        self.measures = false;
         self.start_state = self.reader.state;
     }
 

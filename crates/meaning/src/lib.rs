@@ -9,6 +9,7 @@
 
 mod arc;
 mod block;
+mod centring;
 mod codes;
 mod command;
 mod coordinate;
@@ -31,6 +32,7 @@ mod reference_point;
 mod repetition;
 mod scaling;
 mod setting;
+mod skip;
 mod state;
 mod stroke;
 mod supply;

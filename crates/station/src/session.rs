@@ -66,11 +66,23 @@ pub struct Session<L> {
 impl<L: Library> Session<L> {
     /// A control at power-on.
     pub fn new(configuration: Configuration, library: L) -> Session<L> {
-        let Configuration { control, fitting, machine, memory, base_origin, start, not_returned, switches, inputs } =
-            configuration.clone();
+        let Configuration {
+            control,
+            fitting,
+            machine,
+            memory,
+            base_origin,
+            start,
+            not_returned,
+            contact,
+            switches,
+            inputs,
+        } = configuration.clone();
         let mut interpreter = Interpreter::new(control, fitting.clone(), machine.facts(), memory, &start, base_origin);
         interpreter.lose_reference_points(not_returned);
-        let virtual_machine = VirtualMachine::new(&machine, start, fitting.policies.stroke_check);
+        let mut virtual_machine = VirtualMachine::new(&machine, start, fitting.policies.stroke_check);
+        virtual_machine.set_contact(contact);
+        virtual_machine.set_skip(inputs.skip);
         let motion = Motion::new(Path::new(interpreter, start), machine.limits());
         let mut session = Session {
             motion,
@@ -210,7 +222,9 @@ impl<L: Library> Session<L> {
     /// # Errors
     /// Why not, in words.
     pub fn set_input(&mut self, name: &str, on: bool) -> Result<(), String> {
-        self.inputs.set(name, on).map_err(|error| error.0)
+        self.inputs.set(name, on).map_err(|error| error.0)?;
+        self.machine.set_skip(self.inputs.skip);
+        Ok(())
     }
 
     fn pass_switches(&mut self) {
@@ -325,6 +339,10 @@ impl<L: Library> Session<L> {
                 }
                 // The stop was told when its block closed; here CYCLE START has been pressed.
                 BarrierKind::CycleStart => self.motion.resume(barrier.id, Answer::Continue),
+                BarrierKind::SkipPosition => {
+                    let answer = Answer::Stands(*self.machine.position(), self.machine.was_skipped());
+                    self.motion.resume(barrier.id, answer)
+                }
                 BarrierKind::RunAgain => {
                     let answer = if self.repeats_main { Answer::Continue } else { Answer::Stop };
                     self.motion.resume(barrier.id, answer)
