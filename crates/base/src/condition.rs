@@ -110,6 +110,8 @@ conditions! {
     GNotFitted = "g-not-fitted",
     /// The control has no such M code. Values: code.
     MUnknown = "m-unknown",
+    /// The M code belongs to an option that is not fitted. Values: code.
+    MNotFitted = "m-not-fitted",
     /// More than one M code in a block without the option for it.
     MSeveral = "m-several",
     /// Two one-shot G codes in one block.

@@ -203,6 +203,8 @@ options! {
     block_delete_2_9 = "block-delete-2-9",
     /// B is the code of an index table.
     b_function = "b-function",
+    /// M90 and M91.
+    program_interrupt = "program-interrupt",
     /// User macros.
     user_macro = "user-macro",
 }

@@ -23,7 +23,7 @@ use syntax::Cursor;
 /// [`Interpreter::select`] a program, then pull with [`Interpreter::next`]; barriers are answered with
 /// [`Interpreter::resume`]. Reading runs ahead of execution by as many blocks as the control's buffer holds.
 pub struct Interpreter {
-    reader: Reader,
+    pub(crate) reader: Reader,
     queue: Queue,
     expansion: Option<Expansion>,
     /// The operation handed out last.
@@ -281,8 +281,12 @@ impl Interpreter {
     /// Fills the queue to the control's depth: the block to execute and those read ahead of it.
     fn read_ahead(&mut self) -> Option<Barrier> {
         // Checking on, a block must be judged by the later stages before the next one is read.
-        let depth = if self.reader.goes_on { 1 } else { self.reader.setting.control.read_ahead[0] + 1 };
-        while self.queue.len() < depth && !self.queue.back().is_some_and(|command| command.stops_reading) {
+        let [blocks, _, buffering] = self.reader.setting.control.read_ahead;
+        let depth = |state: &State| if state.buffering { buffering } else { blocks } + 1;
+        let goes_on = self.reader.goes_on;
+        while self.queue.len() < (if goes_on { 1 } else { depth(&self.reader.state) })
+            && !self.queue.back().is_some_and(|command| command.stops_reading)
+        {
             match self.reader.read(self.queue.slot()) {
                 Read::Command => {
                     if !self.started {
@@ -395,6 +399,7 @@ impl Interpreter {
             state.cycle = crate::cycle::CycleData::default();
         }
         setting.end_transform(state);
+        (state.interrupt, state.buffering) = (None, false);
         self.reader.setting.memory.variables.reset();
         self.start_state = self.reader.state;
     }
@@ -409,10 +414,7 @@ impl Interpreter {
     /// Drops what was read and not executed: the state is that of the executing block, the axes stand at `machine`.
     pub fn restore(&mut self, machine: &Point, refused: bool) {
         // Nothing of a refused block has happened: the state is that of the block before it.
-        let state = match self.queue.previous() {
-            Some(previous) if refused => previous.after,
-            _ => *self.executing_state(),
-        };
+        let state = self.state_so_far(!refused);
         let command = self.queue.front().filter(|command| command.place.line > 0).copied();
         self.drop_queue();
         self.reader.state = state;
@@ -425,6 +427,23 @@ impl Interpreter {
             _ => self.reader.rewind(),
         }
         self.started = false;
+        self.start_state = self.reader.state;
+    }
+
+    /// The state after the executing block if it has `begun`, after the block before it if not.
+    pub(crate) fn state_so_far(&self, begun: bool) -> State {
+        match self.queue.previous() {
+            _ if begun => *self.executing_state(),
+            Some(previous) => previous.after,
+            None => self.start_state,
+        }
+    }
+
+    /// Drops the queue; reading goes on in this state, with the axes at `machine` (mm, degrees).
+    pub(crate) fn go_on_from(&mut self, state: State, machine: &Point) {
+        self.drop_queue();
+        self.reader.state = state;
+        self.reader.stand_at(to_counts(machine));
         self.start_state = self.reader.state;
     }
 

@@ -19,6 +19,7 @@ mod expand;
 mod facts;
 mod g_codes;
 mod interpreter;
+mod interrupt;
 mod jump;
 mod mirror;
 mod motion;
@@ -44,13 +45,14 @@ mod word;
 pub use command::{Command, Finish};
 pub use facts::{AxisFacts, CodeRules, MachineFacts, Memory, OffsetTable, Switches};
 pub use interpreter::Interpreter;
+pub use interrupt::Interrupt;
 pub use operation::{
     Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side,
     StopKind, StrokeArea,
 };
 pub use pull::{Answer, Barrier, BarrierKind, Pull, Quantity, StaleBarrier};
 pub use reference_point::ReferenceData;
-pub use state::State;
+pub use state::{Corner, State};
 pub use supply::WINDOW;
 pub use transform::Transform;
 pub use user_macro::{BLANK, Variables};

@@ -33,6 +33,8 @@ pub struct Inputs {
     pub interface: u32,
     /// Skip signal.
     pub skip: bool,
+    /// Program interrupt: it acts in the moment in which it turns on.
+    pub interrupt: bool,
 }
 
 impl Inputs {
@@ -45,12 +47,13 @@ impl Inputs {
             "EOP" => self.eop = Some(on),
             "RWD" => self.rwd = Some(on),
             "skip" => self.skip = on,
-            "interrupt" | "FIN" => return Err(wrong(format!("the input `{name}` is not built yet"))),
+            "interrupt" => self.interrupt = on,
+            "FIN" => return Err(wrong(format!("the input `{name}` is not built yet"))),
             _ => {
                 let number = name.strip_prefix("UI").and_then(|digits| digits.parse::<u32>().ok());
                 let Some(number @ 0..=31) = number else {
                     return Err(wrong(format!(
-                        "there is no input `{name}`; the inputs are EOP, RWD, skip, UI0 to UI31"
+                        "there is no input `{name}`; the inputs are EOP, RWD, skip, interrupt, UI0 to UI31"
                     )));
                 };
                 self.interface = if on { self.interface | 1 << number } else { self.interface & !(1 << number) };
