@@ -110,6 +110,8 @@ conditions! {
     GNotFitted = "g-not-fitted",
     /// The control has no such M code. Values: code.
     MUnknown = "m-unknown",
+    /// The M code belongs to an option that is not fitted. Values: code.
+    MNotFitted = "m-not-fitted",
     /// More than one M code in a block without the option for it.
     MSeveral = "m-several",
     /// Two one-shot G codes in one block.
@@ -181,6 +183,16 @@ conditions! {
     ReferenceCheckWithOffset = "reference-check-with-offset",
     /// G29 on an axis without an intermediate point.
     IntermediatePointMissing = "intermediate-point-missing",
+
+    // The skip signal.
+    /// G31, or centring, while tool radius compensation is active.
+    SkipInCompensation = "skip-in-compensation",
+    /// A skip move went to its end without the signal.
+    SkipSignalMissing = "skip-signal-missing",
+    /// Centring found no wall within its distance.
+    CentringSignalMissing = "centring-signal-missing",
+    /// Centring without the distance within which the walls are.
+    CentringLimitMissing = "centring-limit-missing",
 
     // Scaling.
     /// G51 without its factor P.

@@ -248,6 +248,11 @@ impl<'d, 't> Entry<'d, 't> {
         }
     }
 
+    /// True if the value is a list.
+    pub fn is_list(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::Array(_))
+    }
+
     /// The value as a string, or a number or truth value as it is written.
     pub fn written(&self) -> Option<String> {
         match self.value.get_ref() {

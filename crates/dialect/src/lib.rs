@@ -28,7 +28,8 @@ pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};
 pub use policy::{
     ArcWithoutCentre, CycleL0Moves, CycleWithMotion, DwellVariable, FeedModeChange, G92System, InchFeedInteger,
     M01OffOutput, MOver99, OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius,
-    PositionOffsetLetter, ResetPointer, ScalingBoreLevels, ScalingCompany, StrokeCheck, UnitChangeOffsets,
+    PositionOffsetLetter, ResetPointer, ScalingBoreLevels, ScalingCompany, SkipWithoutSignal, StrokeCheck,
+    UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,

@@ -111,6 +111,13 @@ policies! {
         /// The hundreds are dropped.
         DropHundreds = "drop-hundreds",
     }
+    /// What a skip move is that ends without the signal.
+    skip_without_signal: SkipWithoutSignal = "skip-without-signal" {
+        /// It goes to its end point.
+        EndPoint = "end-point",
+        /// It goes there and alarms.
+        Alarm = "alarm",
+    }
     /// What may stand beside G50 and G51.
     scaling_company: ScalingCompany = "scaling-company" {
         /// No other G code, and no way to go beside G50.
@@ -196,6 +203,8 @@ options! {
     block_delete_2_9 = "block-delete-2-9",
     /// B is the code of an index table.
     b_function = "b-function",
+    /// M90 and M91.
+    program_interrupt = "program-interrupt",
     /// User macros.
     user_macro = "user-macro",
 }

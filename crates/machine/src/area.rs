@@ -212,4 +212,62 @@ mod tests {
         let shape = Shape::Arc { arc: arc(19.999), feed: Feed { mm_per_min: 1.0, exact_stop: false, tapping: false } };
         assert!(offence(&StrokeArea { outside: true, ..unit() }, &shape, None).is_some(), "it begins outside");
     }
+
+    /// Numbers in no order, the same every time.
+    struct Numbers(u64);
+
+    impl Numbers {
+        /// A whole number of tenths up to ± `most` mm.
+        fn next(&mut self, most: u64) -> f64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((self.0 >> 33) % (20 * most + 1)) as f64 / 10.0 - most as f64
+        }
+
+        fn point(&mut self) -> Point {
+            point(self.next(20), self.next(20), self.next(20))
+        }
+    }
+
+    /// What small steps see of a move: whether any of them is inside by more than a hair.
+    fn seen(area: &StrokeArea, at: impl Fn(f64) -> Point) -> Option<f64> {
+        let inside = |p: &Point| area.axes.iter().all(|a| p[a] > area.low[a] + 1e-6 && p[a] < area.high[a] - 1e-6);
+        (0..=2000).map(|step| f64::from(step) / 2000.0).find(|&s| inside(&at(s)))
+    }
+
+    fn check(area: &StrokeArea, found: Option<(Met, Point)>, whole: f64, at: impl Fn(f64) -> Point) {
+        let seen = seen(area, |s| at(s * whole)).map(|s| s * whole);
+        if let Some(seen) = seen {
+            let (met, _) = found.expect("small steps see it enter");
+            assert!(met.at <= seen + 1e-9, "{} {seen}", met.at);
+        }
+        if let Some((met, place)) = found {
+            let near = |axis: usize| place[axis] > area.low[axis] - 1e-6 && place[axis] < area.high[axis] + 1e-6;
+            assert!(area.axes.iter().all(near), "it enters at the box: {place:?}");
+            let on_face = (place[met.axis] - met.border).abs() < 1e-6;
+            assert!(on_face || met.at == 0.0, "{met:?} {place:?}");
+            assert!(seen.is_none_or(|seen| seen - met.at < 0.001 * whole || on_face), "{met:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_found_is_what_small_steps_see() {
+        let (mut numbers, rates) = (Numbers(1), point(3.0, 5.0, 2.0));
+        for round in 0..3000 {
+            let (from, to, area) = (numbers.point(), numbers.point(), unit());
+            check(&area, line(&area, &from, &to), 1.0, |s| along(&from, &to, s));
+            check(&area, dog_leg(&area, &from, &to, &rates), 20.0, |t| at_own_rates(&from, &to, &rates, t));
+            let of = ArcMove {
+                to,
+                plane: Plane::Xy,
+                axes: [0, 1],
+                center: [numbers.next(20), numbers.next(20)],
+                clockwise: round % 2 == 0,
+                full_circle: false,
+            };
+            let arc = Arc::new(&from, &of);
+            if arc.radius[0] > 0.0 && arc.radius[1] > 0.0 {
+                check(&area, curve(&area, &arc), 1.0, |s| arc.at(s));
+            }
+        }
+    }
 }

@@ -12,7 +12,7 @@ use path::Shape;
 use crate::area::{Offence, offence};
 use crate::event::{Event, EventKind};
 use crate::file::{CodeTimes, MachineFile};
-use crate::travel::{Exit, Met, Travel, until};
+use crate::travel::{Exit, Met, Travel, along, until};
 
 /// What executes timed shapes: the virtual machine, or one with real axes.
 ///
@@ -37,6 +37,9 @@ pub trait Machine {
     /// Where the axes are, mm and degrees in machine coordinates.
     fn position(&self) -> &Point;
 
+    /// Whether the last move that waits for the skip signal was ended by it.
+    fn was_skipped(&self) -> bool;
+
     /// Time since the start.
     fn time(&self) -> Seconds;
 }
@@ -56,6 +59,10 @@ pub struct VirtualMachine {
     travel: Travel,
     /// The second stored stroke area, once a program has written it.
     area: Option<StrokeArea>,
+    /// The skip signal: held by hand, or given where an axis crosses one of these coordinates.
+    skip: bool,
+    contact: Vec<(usize, f64)>,
+    was_skipped: bool,
     rates: Option<Point>,
     stroke_check: StrokeCheck,
     times: CodeTimes,
@@ -78,6 +85,9 @@ impl VirtualMachine {
             time: Seconds(0.0),
             travel: file.travel(),
             area: None,
+            skip: false,
+            contact: Vec::new(),
+            was_skipped: false,
             rates: (!file.straight_rapid).then(|| file.rapid_rates()),
             stroke_check,
             times: file.times.clone(),
@@ -90,6 +100,37 @@ impl VirtualMachine {
     /// Checking on after an alarm: where these axes are is not known.
     pub fn set_unknown(&mut self, axes: AxisSet) {
         self.unknown = axes;
+    }
+
+    /// The skip signal, held by hand.
+    pub fn set_skip(&mut self, on: bool) {
+        self.skip = on;
+    }
+
+    /// Where the skip signal comes: axes and machine coordinates, mm or degrees.
+    pub fn set_contact(&mut self, contact: Vec<(usize, f64)>) {
+        self.contact = contact;
+    }
+
+    /// The part of a line up to where the skip signal comes, if it comes: the fraction of it, and the end.
+    ///
+    /// An axis that begins on a face of the contact does not cross it: it may be moving away.
+    fn until_signal(&self, from: &Point, to: &Point) -> Option<(f64, Point)> {
+        if self.skip {
+            return Some((0.0, *from));
+        }
+        let crossing = |&(axis, face): &(usize, f64)| {
+            let at = (face - from[axis]) / (to[axis] - from[axis]);
+            (at > 0.0 && at <= 1.0).then_some((at, axis, face))
+        };
+        let first = self.contact.iter().filter_map(crossing).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let mut end = along(from, to, first.0);
+        for axis in 0..end.len() {
+            // The counters stand on whole nanometres, as programs' words do.
+            end[axis] = if from[axis] == to[axis] { from[axis] } else { (end[axis] * 1e6).round() / 1e6 };
+        }
+        end[first.1] = (first.2 * 1e6).round() / 1e6;
+        Some((first.0, end))
     }
 
     /// Drops what was asked of the machine.
@@ -239,7 +280,25 @@ impl Machine for VirtualMachine {
             Shape::Start(groups) => self.tell(tell, place, EventKind::Start(*groups)),
             shape @ (Shape::Rapid { .. } | Shape::Line { .. } | Shape::Arc { .. }) => {
                 self.wait_until(self.hold, place, tell);
-                match self.refusal(timed) {
+                let signal = match shape {
+                    Shape::Line { from, to, feed } if timed.shaped.until_signal => {
+                        let signal = self.until_signal(from, to);
+                        self.was_skipped = signal.is_some();
+                        signal.map(|(at, to)| (at, Shape::Line { from: *from, to, feed: *feed }))
+                    }
+                    _ => None,
+                };
+                let refused = self.refusal(timed).filter(|(_, met)| {
+                    let before = signal.is_some_and(|(at, _)| at <= met.at);
+                    !(before && self.stroke_check == StrokeCheck::AtBorder)
+                });
+                if let (Some((part, shape)), None) = (&signal, &refused) {
+                    if *part > 0.0 {
+                        self.run(shape, timed, *part, tell);
+                    }
+                    return Ok(());
+                }
+                match refused {
                     Some((refusal, met)) => {
                         if self.stroke_check == StrokeCheck::AtBorder {
                             let (before, part) = until(shape, &met, self.rates.as_ref());
@@ -265,6 +324,10 @@ impl Machine for VirtualMachine {
 
     fn position(&self) -> &Point {
         &self.position
+    }
+
+    fn was_skipped(&self) -> bool {
+        self.was_skipped
     }
 
     fn time(&self) -> Seconds {

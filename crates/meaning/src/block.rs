@@ -298,6 +298,8 @@ impl Reading<'_> {
             }
             Meaning::Dwell => self.dwell(),
             Meaning::SetCoordinates => self.set_coordinates(),
+            Meaning::Skip => self.skip(),
+            Meaning::CentringXy | Meaning::CentringX | Meaning::CentringY => self.centring(code),
             Meaning::ReferenceReturn => self.reference_return(),
             Meaning::OtherReferenceReturn => self.other_reference_return(),
             Meaning::ReturnFromReference => self.return_from_reference(),

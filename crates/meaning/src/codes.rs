@@ -9,6 +9,7 @@ use dialect::{MMeaning, MOver99};
 use crate::block::{Flow, Reading};
 use crate::command::{Finish, MOST_CODES};
 use crate::operation::{CodeLine, CodeOut, EndKind};
+use crate::state::Corner;
 use crate::word::Refusal;
 
 impl Reading<'_> {
@@ -86,9 +87,21 @@ impl Reading<'_> {
                     self.calls_or_returns = true;
                     flow = self.subprogram_end()?;
                 }
+                MMeaning::InterruptOff | MMeaning::InterruptOn if !self.setting.fitting.options.program_interrupt => {
+                    let alarm = self.words.alarm_at(Condition::MNotFitted, word);
+                    return Err(alarm.with([f64::from(code), 0.0, 0.0]).into());
+                }
+                MMeaning::InterruptOff => self.next.interrupt = None,
+                MMeaning::InterruptOn => {
+                    self.calls_or_returns = true;
+                    self.interrupt_on(word)?;
+                }
+                MMeaning::BufferingOff => self.next.buffering = false,
+                MMeaning::BufferingOn => self.next.buffering = true,
+                MMeaning::CornerArc => self.next.corner = Corner::Arc,
+                MMeaning::CornerIntersection => self.next.corner = Corner::Intersection,
                 MMeaning::MirrorOn => self.mirror_on(),
                 MMeaning::MirrorOff => self.mirror_off(),
-                _ => return Err(self.words.alarm_at(Condition::NotYetBuilt, word).into()),
             }
             if row.to_machine {
                 self.push_code(CodeLine::M, code, digits, after, word)?;

@@ -4,6 +4,7 @@ use base::{AXES, Alarm, AxisSet, Place, Point};
 use dialect::GroupCodes;
 use syntax::{Cursor, Extent};
 
+use crate::centring::Centring;
 use crate::cycle::Holes;
 use crate::operation::{CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
 use crate::program::Frame;
@@ -43,6 +44,13 @@ pub(crate) enum Body {
         full_circle: bool,
         feed: Feed,
     },
+    /// A line until the skip signal; what is raised if it does not come.
+    Skip {
+        to: Point,
+        feed: Feed,
+        missed: Option<Alarm>,
+    },
+    Centring(Centring),
     Dwell(Dwell),
     Set(SetValue, Option<SetValue>),
     Holes(Holes),
@@ -54,7 +62,17 @@ pub(crate) enum Body {
 impl Body {
     /// True if axes move by it.
     pub fn moves(&self) -> bool {
-        matches!(self, Body::Rapid { .. } | Body::Via { .. } | Body::Line { .. } | Body::Arc { .. } | Body::Holes(_))
+        matches!(
+            self,
+            Body::Rapid { .. }
+                | Body::Checked { .. }
+                | Body::Via { .. }
+                | Body::Line { .. }
+                | Body::Arc { .. }
+                | Body::Skip { .. }
+                | Body::Centring(_)
+                | Body::Holes(_)
+        )
     }
 }
 

@@ -2,6 +2,7 @@
 
 use base::{AXES, AxisSet, Point};
 
+use crate::centring::Centring;
 use crate::command::{Body, Command, Finish};
 use crate::cycle::{Cursor, Holes, Spindle, Step, steps_of};
 use crate::operation::{Act, ArcMove, Close, CodeLine, CodeOut, Dwell, Feed, Operation, RapidKind};
@@ -26,6 +27,14 @@ pub(crate) struct Expansion {
     hole: u32,
     cursor: Cursor,
     position: Point,
+    /// Where a move that waits for the skip signal ends without it.
+    target: Point,
+    /// Where the signal came along the axis that is being centred.
+    hits: [f64; 2],
+    /// Where that axis stood before.
+    start: f64,
+    /// The signal did not come.
+    missed: bool,
 }
 
 /// What decides at execution, not when a block is read.
@@ -49,7 +58,34 @@ impl Expansion {
             hole: 0,
             cursor: Cursor::default(),
             position: command.from,
+            target: command.from,
+            hits: [0.0; 2],
+            start: 0.0,
+            missed: false,
         }
+    }
+
+    /// A move that waits for the skip signal has ended here (mm and degrees); the same in counts.
+    pub fn arrived(&mut self, at: &Point, signalled: bool) -> Point {
+        for axis in 0..AXES {
+            // Where the axis is just where it was, or was to go, its counts are known to the last digit.
+            self.position[axis] = match at[axis] {
+                at if at == self.target[axis] / 1e6 => self.target[axis],
+                at if at == self.position[axis] / 1e6 => self.position[axis],
+                at => (at * 1e6).round(),
+            };
+        }
+        self.missed = !signalled;
+        self.position
+    }
+
+    /// The axis that has been centred on both sides now, and its middle.
+    pub fn middle(&mut self, centring: &Centring) -> Option<(usize, f64)> {
+        // A phase has been stepped on when its move ends.
+        let (measure, side) = (usize::from(self.phase.saturating_sub(1)) / 3, (self.phase.saturating_sub(1)) % 3);
+        let axis = centring.along.iter().flatten().nth(measure).map(|&(axis, _)| usize::from(axis))?;
+        self.hits[usize::from(side == 1)] = self.position[axis];
+        (side == 1).then_some((axis, (self.hits[0] + self.hits[1]) / 2.0))
     }
 
     /// The close of the block is handed out once more.
@@ -60,13 +96,14 @@ impl Expansion {
     /// Writes the next operation of the command to `out`; false when the block is done.
     pub fn next(&mut self, command: &Command, around: &Surroundings, out: &mut Operation) -> bool {
         out.stop_point = false;
+        out.until_signal = false;
         out.act = loop {
             match self.part {
                 Part::CodesBefore => match self.next_code(command, false, around) {
                     Some(code) => break Act::Code(code),
                     None => self.part = Part::Body,
                 },
-                Part::Body => match self.next_piece(command, around, &mut out.stop_point) {
+                Part::Body => match self.next_piece(command, around, out) {
                     Some(act) => break act,
                     None => {
                         self.part = Part::CodesAfter;
@@ -106,10 +143,12 @@ impl Expansion {
         None
     }
 
-    fn next_piece(&mut self, command: &Command, around: &Surroundings, stop_point: &mut bool) -> Option<Act> {
+    fn next_piece(&mut self, command: &Command, around: &Surroundings, out: &mut Operation) -> Option<Act> {
         let mm = |counts: &Point| to_mm(counts, around.axes);
-        if let Body::Holes(holes) = &command.body {
-            return self.next_in_hole(holes, around, stop_point);
+        match &command.body {
+            Body::Holes(holes) => return self.next_in_hole(holes, around, &mut out.stop_point),
+            Body::Centring(centring) => return self.next_in_centring(centring, around, out),
+            _ => {}
         }
         let phase = self.phase;
         self.phase += 1;
@@ -130,10 +169,16 @@ impl Expansion {
             (Body::Checked { to, .. }, 0) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),
             (Body::Checked { alarm: Some(alarm), .. }, 1) => Some(Act::Alarm(*alarm)),
             (Body::Via { via, .. }, 0) => {
-                *stop_point = true;
+                out.stop_point = true;
                 Some(Act::Rapid { to: mm(via), kind: RapidKind::Checked })
             }
             (Body::Via { to, .. }, 1) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),
+            (Body::Skip { to, feed, .. }, 0) => {
+                self.target = *to;
+                out.until_signal = true;
+                Some(Act::Line { to: mm(to), feed: *feed })
+            }
+            (Body::Skip { missed: Some(alarm), .. }, 1) if self.missed => Some(Act::Alarm(*alarm)),
             (Body::Dwell(dwell), 0) => Some(Act::Dwell(*dwell)),
             (Body::Set(value, _), 0) => Some(Act::Set(*value)),
             (Body::Set(_, Some(value)), 1) => Some(Act::Set(*value)),
@@ -141,6 +186,34 @@ impl Expansion {
             (Body::Start(groups), 0) => Some(Act::Start(*groups)),
             _ => None,
         }
+    }
+
+    /// Three phases an axis: to one side, to the other, to the middle.
+    fn next_in_centring(&mut self, centring: &Centring, around: &Surroundings, out: &mut Operation) -> Option<Act> {
+        let phase = self.phase;
+        let &(axis, distance) = centring.along.iter().flatten().nth(usize::from(phase) / 3)?;
+        let axis = usize::from(axis);
+        if self.missed {
+            self.phase = u8::MAX;
+            self.missed = false;
+            return Some(Act::Alarm(centring.missed));
+        }
+        self.phase += 1;
+        let to = match phase % 3 {
+            0 => {
+                self.start = self.position[axis];
+                self.start + distance
+            }
+            1 => self.start - distance,
+            _ => {
+                self.position[axis] = (self.hits[0] + self.hits[1]) / 2.0;
+                return Some(self.rapid(RapidKind::Checked, around));
+            }
+        };
+        self.target = self.position;
+        self.target[axis] = to;
+        out.until_signal = true;
+        Some(Act::Line { to: to_mm(&self.target, around.axes), feed: centring.feed })
     }
 
     /// Phases of a hole: 0 the approach from one side, 1 the position, 2 the R level, 3 the cycle's own steps.

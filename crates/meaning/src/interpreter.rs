@@ -23,7 +23,7 @@ use syntax::Cursor;
 /// [`Interpreter::select`] a program, then pull with [`Interpreter::next`]; barriers are answered with
 /// [`Interpreter::resume`]. Reading runs ahead of execution by as many blocks as the control's buffer holds.
 pub struct Interpreter {
-    reader: Reader,
+    pub(crate) reader: Reader,
     queue: Queue,
     expansion: Option<Expansion>,
     /// The operation handed out last.
@@ -36,6 +36,8 @@ pub struct Interpreter {
     /// The close that waits for the answer whether the main program runs again.
     runs_again: Option<bool>,
     waits_for_start: bool,
+    /// The operation handed out ends where the skip signal comes.
+    measures: bool,
     /// The state in which the selected program begins.
     start_state: State,
 }
@@ -78,6 +80,7 @@ impl Interpreter {
             started: false,
             runs_again: None,
             waits_for_start: false,
+            measures: false,
             start_state: state,
         }
     }
@@ -193,6 +196,10 @@ impl Interpreter {
             return Pull::Barrier(barrier);
         }
         loop {
+            if self.measures {
+                self.measures = false;
+                return Pull::Barrier(self.ask(BarrierKind::SkipPosition));
+            }
             if self.waits_for_start {
                 self.waits_for_start = false;
                 return Pull::Barrier(self.ask(BarrierKind::CycleStart));
@@ -239,6 +246,7 @@ impl Interpreter {
             self.reader.ahead = 0;
             return None;
         }
+        self.measures = self.operation.until_signal;
         if let Act::Close(close) = self.operation.act {
             if matches!(command.finish, Finish::End(EndKind::M99 | EndKind::Loop)) {
                 match self.runs_again.take() {
@@ -273,8 +281,12 @@ impl Interpreter {
     /// Fills the queue to the control's depth: the block to execute and those read ahead of it.
     fn read_ahead(&mut self) -> Option<Barrier> {
         // Checking on, a block must be judged by the later stages before the next one is read.
-        let depth = if self.reader.goes_on { 1 } else { self.reader.setting.control.read_ahead[0] + 1 };
-        while self.queue.len() < depth && !self.queue.back().is_some_and(|command| command.stops_reading) {
+        let [blocks, _, buffering] = self.reader.setting.control.read_ahead;
+        let depth = |state: &State| if state.buffering { buffering } else { blocks } + 1;
+        let goes_on = self.reader.goes_on;
+        while self.queue.len() < (if goes_on { 1 } else { depth(&self.reader.state) })
+            && !self.queue.back().is_some_and(|command| command.stops_reading)
+        {
             match self.reader.read(self.queue.slot()) {
                 Read::Command => {
                     if !self.started {
@@ -334,11 +346,21 @@ impl Interpreter {
                 let value = if let Answer::Value(value) = answer { value } else { 0.0 };
                 self.reader.answers.push((quantity, value));
             }
+            (BarrierKind::SkipPosition, answer) => self.measured(answer),
             (BarrierKind::RunAgain, answer) => self.runs_again = Some(answer == Answer::Continue),
             (BarrierKind::CycleStart, Answer::Stop) => self.reader.end(),
             (BarrierKind::CycleStart, _) => {}
         }
         Ok(())
+    }
+
+    /// A move that waits for the skip signal has ended. Nothing has been read beyond its block.
+    fn measured(&mut self, answer: Answer) {
+        let Answer::Stands(at, signalled) = answer else { return };
+        if let (Some(expansion), Some(command)) = (self.expansion.as_mut(), self.queue.front_mut()) {
+            crate::skip::measured(&self.reader.setting, expansion, command, &at, signalled);
+            (self.reader.state.machine, self.reader.state.skip) = (command.after.machine, command.after.skip);
+        }
     }
 
     /// Takes bytes in. Fewer than asked for are gathered and the rest asked for, so that any answer leads on; nothing
@@ -377,6 +399,7 @@ impl Interpreter {
             state.cycle = crate::cycle::CycleData::default();
         }
         setting.end_transform(state);
+        (state.interrupt, state.buffering) = (None, false);
         self.reader.setting.memory.variables.reset();
         self.start_state = self.reader.state;
     }
@@ -391,10 +414,7 @@ impl Interpreter {
     /// Drops what was read and not executed: the state is that of the executing block, the axes stand at `machine`.
     pub fn restore(&mut self, machine: &Point, refused: bool) {
         // Nothing of a refused block has happened: the state is that of the block before it.
-        let state = match self.queue.previous() {
-            Some(previous) if refused => previous.after,
-            _ => *self.executing_state(),
-        };
+        let state = self.state_so_far(!refused);
         let command = self.queue.front().filter(|command| command.place.line > 0).copied();
         self.drop_queue();
         self.reader.state = state;
@@ -407,6 +427,23 @@ impl Interpreter {
             _ => self.reader.rewind(),
         }
         self.started = false;
+        self.start_state = self.reader.state;
+    }
+
+    /// The state after the executing block if it has `begun`, after the block before it if not.
+    pub(crate) fn state_so_far(&self, begun: bool) -> State {
+        match self.queue.previous() {
+            _ if begun => *self.executing_state(),
+            Some(previous) => previous.after,
+            None => self.start_state,
+        }
+    }
+
+    /// Drops the queue; reading goes on in this state, with the axes at `machine` (mm, degrees).
+    pub(crate) fn go_on_from(&mut self, state: State, machine: &Point) {
+        self.drop_queue();
+        self.reader.state = state;
+        self.reader.stand_at(to_counts(machine));
         self.start_state = self.reader.state;
     }
 
@@ -444,6 +481,7 @@ impl Interpreter {
         self.gathered.clear();
         self.runs_again = None;
         self.waits_for_start = false;
+        self.measures = false;
         self.start_state = self.reader.state;
     }
 

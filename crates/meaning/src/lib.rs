@@ -9,6 +9,7 @@
 
 mod arc;
 mod block;
+mod centring;
 mod codes;
 mod command;
 mod coordinate;
@@ -18,6 +19,7 @@ mod expand;
 mod facts;
 mod g_codes;
 mod interpreter;
+mod interrupt;
 mod jump;
 mod mirror;
 mod motion;
@@ -31,6 +33,7 @@ mod reference_point;
 mod repetition;
 mod scaling;
 mod setting;
+mod skip;
 mod state;
 mod stroke;
 mod supply;
@@ -42,13 +45,14 @@ mod word;
 pub use command::{Command, Finish};
 pub use facts::{AxisFacts, CodeRules, MachineFacts, Memory, OffsetTable, Switches};
 pub use interpreter::Interpreter;
+pub use interrupt::Interrupt;
 pub use operation::{
     Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side,
     StopKind, StrokeArea,
 };
 pub use pull::{Answer, Barrier, BarrierKind, Pull, Quantity, StaleBarrier};
 pub use reference_point::ReferenceData;
-pub use state::State;
+pub use state::{Corner, State};
 pub use supply::WINDOW;
 pub use transform::Transform;
 pub use user_macro::{BLANK, Variables};

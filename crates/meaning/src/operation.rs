@@ -259,6 +259,8 @@ pub struct Operation {
     pub side: Side,
     /// The two axes of the plane in force, while compensation is.
     pub plane: AxisSet,
+    /// The move ends where the skip signal comes; the machine is asked for the place before anything else.
+    pub until_signal: bool,
     /// The second stored stroke area is checked (G22).
     pub stroke_check: bool,
     /// Checking on: some axis' place before it is unknown, so it may be a move even where it seems to be none.
@@ -276,6 +278,7 @@ impl Default for Operation {
             act: Act::Close(Close::Next),
             side: Side::Off,
             plane: AxisSet::NONE,
+            until_signal: false,
             stroke_check: false,
             from_unknown: false,
             stop_point: false,

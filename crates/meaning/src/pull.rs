@@ -1,6 +1,6 @@
 //! The way in which every stage hands on what it made, and asks for what it lacks.
 
-use base::SourceId;
+use base::{Point, SourceId};
 
 /// What a stage has next.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -41,6 +41,8 @@ pub enum BarrierKind {
     },
     /// Something that a macro reads of the machine.
     NeedValue(Quantity),
+    /// Where a move that waits for the skip signal has ended.
+    SkipPosition,
     /// CYCLE START after a program stop.
     CycleStart,
     /// Whether the main program, which asks to be run again, shall be.
@@ -78,6 +80,8 @@ pub enum Answer<'a> {
     NotFound,
     /// What a macro reads.
     Value(f64),
+    /// Where the axes stand, mm and degrees in machine coordinates, and whether the skip signal brought them there.
+    Stands(Point, bool),
     /// Go on.
     Continue,
     /// Do not go on.

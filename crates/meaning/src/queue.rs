@@ -28,6 +28,11 @@ impl Queue {
         if self.len == 0 { None } else { self.ring.get(self.front) }
     }
 
+    /// The command being executed, to correct where it ends.
+    pub fn front_mut(&mut self) -> Option<&mut Command> {
+        if self.len == 0 { None } else { self.ring.get_mut(self.front) }
+    }
+
     /// The command read last.
     pub fn back(&self) -> Option<&Command> {
         if self.len == 0 { None } else { self.ring.get((self.front + self.len - 1) % HELD) }

@@ -157,6 +157,16 @@ impl Reader {
         self.repetition = Repetition::default();
     }
 
+    /// What is being looked for or asked for is of no use any more.
+    pub fn drop_what_is_sought(&mut self) {
+        self.search = None;
+        self.ended = false;
+        self.jumps = 0;
+        self.answers.clear();
+        self.asks_again = None;
+        self.repetition = Repetition::default();
+    }
+
     /// Goes on in the main program at the block after a command, or (`again`) with that block once more.
     ///
     /// A command of a subprogram has no way back to its caller any more: the main program's head is next.

@@ -6,6 +6,7 @@ use base::{AXES, AxisSet, Point};
 use dialect::GroupCodes;
 
 use crate::cycle::CycleData;
+use crate::interrupt::Interrupt;
 use crate::reference_point::ReferenceData;
 use crate::stroke::StrokeBox;
 use crate::transform::Transform;
@@ -18,6 +19,18 @@ pub struct FeedWord {
     pub nanometres: f64,
     /// True if it was programmed per revolution.
     pub per_revolution: bool,
+}
+
+/// How tool radius compensation goes round outside corners.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Corner {
+    /// As the control does by itself.
+    #[default]
+    NotProgrammed,
+    /// M96: on an arc.
+    Arc,
+    /// M97: through the intersection of the shifted paths.
+    Intersection,
 }
 
 /// Everything that a block leaves to the next one. Lengths are counts: nanometres or microdegrees in an `f64`, exact
@@ -66,6 +79,12 @@ pub struct State {
     pub feed_control: u8,
     /// Reference points.
     pub reference: ReferenceData,
+    /// M91: where the program goes on when the interrupt input turns on.
+    pub interrupt: Option<Interrupt>,
+    /// M93: more blocks are read ahead.
+    pub buffering: bool,
+    /// M96 and M97.
+    pub corner: Corner,
     /// The box of the second stored stroke area.
     pub stroke: StrokeBox,
     /// Scale and mirror.
@@ -95,10 +114,13 @@ impl State {
             cycle: CycleData::default(),
             miscellaneous: 0,
             sequence: 0,
-            skip: [0.0; AXES],
             block_control: 0,
             feed_control: 0,
             reference: ReferenceData { established: AxisSet(u8::MAX), remembered: AxisSet::NONE, via: [0.0; AXES] },
+            skip: [0.0; AXES],
+            interrupt: None,
+            buffering: false,
+            corner: Corner::NotProgrammed,
             stroke: StrokeBox::NONE,
             transform: Transform::default(),
             unknown: Unknown::default(),

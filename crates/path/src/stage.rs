@@ -61,6 +61,8 @@ pub struct Shaped {
     pub shape: Shape,
     /// A stop point of the single-block switch inside the block.
     pub stop_point: bool,
+    /// The move ends where the skip signal comes.
+    pub until_signal: bool,
     /// The second stored stroke area is checked.
     pub stroke_check: bool,
     /// False if an earlier refusal makes its place doubtful (only while checking on).
@@ -71,7 +73,15 @@ impl Default for Shaped {
     /// The end of no block.
     fn default() -> Self {
         let shape = Shape::Close(Close::Next);
-        Shaped { block: 0, place: Place::default(), shape, stop_point: false, stroke_check: false, certain: true }
+        Shaped {
+            block: 0,
+            place: Place::default(),
+            shape,
+            stop_point: false,
+            until_signal: false,
+            stroke_check: false,
+            certain: true,
+        }
     }
 }
 
@@ -105,7 +115,11 @@ impl Path {
     /// # Errors
     /// `id` is not that of the open barrier.
     pub fn resume(&mut self, id: u64, answer: Answer) -> Result<(), StaleBarrier> {
-        self.upstream.resume(id, answer)
+        self.upstream.resume(id, answer)?;
+        if let Answer::Stands(at, _) = answer {
+            self.position = at;
+        }
+        Ok(())
     }
 
     /// The next shape. It stays as it is until the next call.
@@ -180,6 +194,7 @@ fn shape(
     shaped.block = operation.block;
     shaped.place = operation.place;
     shaped.stop_point = operation.stop_point;
+    shaped.until_signal = operation.until_signal;
     shaped.stroke_check = operation.stroke_check;
     shaped.certain = true;
     let moving = match &shaped.shape {

@@ -31,6 +31,10 @@ pub struct Inputs {
     pub rwd: Option<bool>,
     /// The interface inputs UI0 to UI31 that macros read, one bit each.
     pub interface: u32,
+    /// Skip signal.
+    pub skip: bool,
+    /// Program interrupt: it acts in the moment in which it turns on.
+    pub interrupt: bool,
 }
 
 impl Inputs {
@@ -42,11 +46,15 @@ impl Inputs {
         match name {
             "EOP" => self.eop = Some(on),
             "RWD" => self.rwd = Some(on),
-            "skip" | "interrupt" | "FIN" => return Err(wrong(format!("the input `{name}` is not built yet"))),
+            "skip" => self.skip = on,
+            "interrupt" => self.interrupt = on,
+            "FIN" => return Err(wrong(format!("the input `{name}` is not built yet"))),
             _ => {
                 let number = name.strip_prefix("UI").and_then(|digits| digits.parse::<u32>().ok());
                 let Some(number @ 0..=31) = number else {
-                    return Err(wrong(format!("there is no input `{name}`; the inputs are EOP, RWD, UI0 to UI31")));
+                    return Err(wrong(format!(
+                        "there is no input `{name}`; the inputs are EOP, RWD, skip, interrupt, UI0 to UI31"
+                    )));
                 };
                 self.interface = if on { self.interface | 1 << number } else { self.interface & !(1 << number) };
             }
@@ -72,6 +80,8 @@ pub struct Configuration {
     pub start: Point,
     /// Axes that have not been returned to their reference point since power-on.
     pub not_returned: AxisSet,
+    /// Where the skip signal comes: axes and machine coordinates, mm or degrees.
+    pub contact: Vec<(usize, f64)>,
     /// The operator's switches.
     pub switches: SessionSwitches,
     /// Signals held by hand.
@@ -103,6 +113,7 @@ impl Configuration {
             base_origin: [0.0; AXES],
             start: [0.0; AXES],
             not_returned: AxisSet::NONE,
+            contact: Vec::new(),
             switches: SessionSwitches::default(),
             inputs: Inputs::default(),
             control,
@@ -180,6 +191,10 @@ impl Configuration {
         for &(letter, returned) in &setup.returned {
             let axis = AxisSet::only(self.axis(letter)?);
             self.not_returned = if returned { self.not_returned.without(axis) } else { self.not_returned.or(axis) };
+        }
+        for &(letter, at) in &setup.contact {
+            let axis = self.axis(letter)?;
+            self.contact.push((axis, at));
         }
         for (name, number) in &setup.switches {
             self.switches.set(name, *number, true).map_err(wrong)?;

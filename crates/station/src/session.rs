@@ -55,6 +55,8 @@ pub struct Session<L> {
     held: bool,
     /// The block at whose beginning the operator asked to be told.
     told: Option<u64>,
+    /// The block of which something has been executed last.
+    begun: Option<u64>,
     stopped: bool,
     alarm: Option<Alarm>,
     ended: bool,
@@ -66,11 +68,23 @@ pub struct Session<L> {
 impl<L: Library> Session<L> {
     /// A control at power-on.
     pub fn new(configuration: Configuration, library: L) -> Session<L> {
-        let Configuration { control, fitting, machine, memory, base_origin, start, not_returned, switches, inputs } =
-            configuration.clone();
+        let Configuration {
+            control,
+            fitting,
+            machine,
+            memory,
+            base_origin,
+            start,
+            not_returned,
+            contact,
+            switches,
+            inputs,
+        } = configuration.clone();
         let mut interpreter = Interpreter::new(control, fitting.clone(), machine.facts(), memory, &start, base_origin);
         interpreter.lose_reference_points(not_returned);
-        let virtual_machine = VirtualMachine::new(&machine, start, fitting.policies.stroke_check);
+        let mut virtual_machine = VirtualMachine::new(&machine, start, fitting.policies.stroke_check);
+        virtual_machine.set_contact(contact);
+        virtual_machine.set_skip(inputs.skip);
         let motion = Motion::new(Path::new(interpreter, start), machine.limits());
         let mut session = Session {
             motion,
@@ -86,6 +100,7 @@ impl<L: Library> Session<L> {
             bytes: Vec::new(),
             held: false,
             told: None,
+            begun: None,
             stopped: false,
             alarm: None,
             ended: true,
@@ -210,7 +225,13 @@ impl<L: Library> Session<L> {
     /// # Errors
     /// Why not, in words.
     pub fn set_input(&mut self, name: &str, on: bool) -> Result<(), String> {
-        self.inputs.set(name, on).map_err(|error| error.0)
+        let interrupt = self.inputs.interrupt;
+        self.inputs.set(name, on).map_err(|error| error.0)?;
+        if self.inputs.interrupt && !interrupt {
+            self.interrupt();
+        }
+        self.machine.set_skip(self.inputs.skip);
+        Ok(())
     }
 
     fn pass_switches(&mut self) {
@@ -218,6 +239,27 @@ impl<L: Library> Session<L> {
         let switches = self.interpreter_mut().switches_mut();
         switches.optional_stop = optional_stop;
         switches.block_delete = block_delete;
+    }
+
+    /// The interrupt input has turned on: if the program allows it, the rest of the block that runs is dropped and the
+    /// program goes on elsewhere.
+    fn interrupt(&mut self) {
+        if !self.is_running() || self.stopped {
+            return;
+        }
+        let (position, place) = (*self.machine.position(), self.place());
+        let begun = !self.held || self.begun == Some(self.motion.upstream.current().block);
+        if !self.interpreter_mut().interrupt(&position, begun) {
+            return;
+        }
+        self.codes.clear();
+        self.motion.upstream.stand_at(&position);
+        self.held = false;
+        self.told = None;
+        if begun {
+            let events = &mut self.events;
+            self.machine.finish_block(&place, &mut |event| events.push_back(event));
+        }
     }
 
     /// RESET: whatever runs is dropped, an alarm is cleared, the reset table is applied.
@@ -325,6 +367,10 @@ impl<L: Library> Session<L> {
                 }
                 // The stop was told when its block closed; here CYCLE START has been pressed.
                 BarrierKind::CycleStart => self.motion.resume(barrier.id, Answer::Continue),
+                BarrierKind::SkipPosition => {
+                    let answer = Answer::Stands(*self.machine.position(), self.machine.was_skipped());
+                    self.motion.resume(barrier.id, answer)
+                }
                 BarrierKind::RunAgain => {
                     let answer = if self.repeats_main { Answer::Continue } else { Answer::Stop };
                     self.motion.resume(barrier.id, answer)
@@ -346,6 +392,7 @@ impl<L: Library> Session<L> {
     }
 
     fn execute(&mut self) {
+        self.begun = Some(self.motion.upstream.current().block);
         let shaped = self.motion.upstream.current();
         let (place, stop_point) = (shaped.place, shaped.stop_point);
         match shaped.shape {

@@ -33,6 +33,8 @@ pub struct Setup {
     pub policies: Vec<(String, String)>,
     /// Axis letter, machine coordinate at power-on.
     pub start: Vec<(u8, f64)>,
+    /// Axis letter, machine coordinate at which the skip signal comes.
+    pub contact: Vec<(u8, f64)>,
     /// Axis letter, whether it has been returned to its reference point since power-on.
     pub returned: Vec<(u8, bool)>,
 }
@@ -65,6 +67,7 @@ pub fn read_setup(file: &str, text: &str) -> Result<Setup, Vec<DataError>> {
         setup.start = root
             .table("start", |t| t.rest().iter().filter_map(|e| Some((letter(e)?, e.number()?))).collect())
             .unwrap_or_default();
+        setup.contact = root.table("contact", |t| t.rest().into_iter().flat_map(contact).collect()).unwrap_or_default();
         setup.returned = root
             .table("returned", |t| t.rest().iter().filter_map(|e| Some((letter(e)?, e.boolean()?))).collect())
             .unwrap_or_default();
@@ -96,6 +99,16 @@ fn work_system(entry: Entry) -> Vec<(String, u8, f64)> {
     let system = entry.key.clone();
     let axes = entry.table(|t| t.rest().iter().filter_map(|e| Some((letter(e)?, e.number()?))).collect::<Vec<_>>());
     axes.unwrap_or_default().into_iter().map(|(axis, value)| (system.clone(), axis, value)).collect()
+}
+
+/// One coordinate of an axis, or a list of them.
+fn contact(entry: Entry) -> Vec<(u8, f64)> {
+    let Some(axis) = letter(&entry) else { return Vec::new() };
+    if !entry.is_list() {
+        return entry.number().map(|at| (axis, at)).into_iter().collect();
+    }
+    let faces = entry.list().unwrap_or_default();
+    faces.iter().filter_map(|item| Some((axis, item.number()?))).collect()
 }
 
 fn parameter(entry: &Entry) -> Option<ParameterSetting> {
