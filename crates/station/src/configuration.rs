@@ -48,7 +48,9 @@ impl Inputs {
             "RWD" => self.rwd = Some(on),
             "skip" => self.skip = on,
             "interrupt" => self.interrupt = on,
-            "FIN" => return Err(wrong(format!("the input `{name}` is not built yet"))),
+            "FIN" | "overtravel" | "servo-fault" | "battery-low" | "memory-fault" => {
+                return Err(wrong(format!("the input `{name}` is not built yet")));
+            }
             _ => {
                 let number = name.strip_prefix("UI").and_then(|digits| digits.parse::<u32>().ok());
                 let Some(number @ 0..=31) = number else {

@@ -19,6 +19,10 @@ pub enum Waits {
     Cycle,
     /// Any other function of the control.
     Function,
+    /// Time and motion.
+    Motion,
+    /// The operator's station and the machine's signals.
+    Station,
 }
 
 impl Waits {
@@ -27,6 +31,8 @@ impl Waits {
         ("compensation", Waits::Compensation),
         ("cycle", Waits::Cycle),
         ("function", Waits::Function),
+        ("motion", Waits::Motion),
+        ("station", Waits::Station),
     ];
 
     /// The word that the file has for it.

@@ -13,6 +13,8 @@ use crate::program::{Call, Outcome, Program};
 
 /// The alarm of a row that the program knows and does not execute yet.
 const NOT_YET_BUILT: &str = "NOT_YET_BUILT";
+/// What the operator is told of such an action.
+const NOT_BUILT_YET: &str = "not built yet";
 
 /// What is done with what the program prints.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -39,8 +41,7 @@ fn judge_one(case: &Case, folder: &Path, mode: Mode, program: Program) -> Result
     let outcome = run(case, room.folder(folder), case.file.as_deref(), program)?;
     let mut faults = Vec::new();
     if let Some(waits) = case.waits
-        && !outcome.out.contains(NOT_YET_BUILT)
-        && !outcome.err.contains(NOT_YET_BUILT)
+        && ![&outcome.out, &outcome.err].iter().any(|text| text.contains(NOT_YET_BUILT) || text.contains(NOT_BUILT_YET))
     {
         let name = waits.name();
         faults.push(format!(
