@@ -213,9 +213,7 @@ pub enum PunchCodeArgument {
 /// On or off.
 #[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OnOff {
-    /// On.
     On,
-    /// Off.
     Off,
 }
 
@@ -234,7 +232,7 @@ pub struct TapeArguments {
     /// Take the controls' tables from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub controls: Option<PathBuf>,
-    /// One parameter, such as \"eia code of equals sign=0b00001101\"
+    /// One parameter, such as "eia code of equals sign=0b00001101"
     #[arg(long, value_name = "NAME=VALUE")]
     pub parameter: Vec<String>,
 }
