@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes one target (read, interpret) for FUZZ_SECONDS (60) with libFuzzer; a finding stays in fuzz/artifacts/.
+# Fuzzes one target (read, tape, interpret) for FUZZ_SECONDS (60) with libFuzzer; a finding stays in fuzz/artifacts/.
 # Runs on the stable compiler; the C++ part of libFuzzer needs a C++ compiler.
 set -euo pipefail
 cd "$(dirname "$0")/../fuzz"
@@ -11,7 +11,7 @@ cargo build --release --locked --quiet --bin "$target"
 
 # Every program of the corpus and of the examples is a seed; their names are those of their contents.
 mkdir -p "$corpus" artifacts
-find ../cases ../examples -type f \( -name '*.nc' -o -name '*.txt' \) -size -4k | while read -r seed; do
+find ../cases ../examples -type f \( -name '*.nc' -o -name '*.txt' -o -name '*.eia' -o -name '*.iso' \) -size -4k | while read -r seed; do
     cp "$seed" "$corpus/$(cksum <"$seed" | cut -d' ' -f1)"
 done
 

@@ -2,5 +2,7 @@
 
 #[path = "../../crates/syntax/tests/reading/mod.rs"]
 pub mod reading;
+#[path = "../../crates/tape/tests/tapes/mod.rs"]
+pub mod tapes;
 #[path = "../../crates/station/tests/watch/mod.rs"]
 pub mod watch;

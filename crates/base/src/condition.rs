@@ -48,6 +48,14 @@ conditions! {
     CommentClose = "comment-close",
     /// The block is longer than the control reads. Values: characters allowed.
     BlockTooLong = "block-too-long",
+    /// A row of tape whose number of holes is wrong. Values: row, the characters it may have been.
+    CharacterParity = "character-parity",
+    /// Blank tape inside a program whose code has no blank row.
+    TapeBlank = "tape-blank",
+    /// A row of tape that is no character of its code. Values: row.
+    TapeCodeUnknown = "tape-code-unknown",
+    /// A block with an odd number of rows on tape. Values: rows, the end counted.
+    BlockParity = "block-parity",
     /// A macro statement that cannot be read.
     MacroStatement = "macro-statement",
     /// A name in an expression that is no function, or ATAN without its second bracket.

@@ -6,6 +6,7 @@ pub mod coverage;
 pub mod operate;
 pub mod plot;
 pub mod run;
+pub mod tape;
 pub mod trace;
 
 use base::ProgramId;
@@ -21,6 +22,7 @@ use crate::texts::Texts;
 pub fn open(file: &str, arguments: &SettingArguments) -> Result<Session<Texts>, Failure> {
     let configuration = setting::configuration(arguments)?;
     let mut texts = setting::texts(file, arguments)?;
+    texts.show_tapes(configuration.fitting.tape_codes(&configuration.control));
     let source = texts.open(file)?;
     let mut session = Session::new(configuration, texts);
     session.interpreter_mut().set_loop_limit(arguments.loop_limit);

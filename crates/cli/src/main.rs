@@ -46,6 +46,7 @@ fn run(command: Command) -> Result<bool, Failure> {
         Command::Check(arguments) => command::check::check(&arguments),
         Command::Trace(arguments) => command::trace::trace(&arguments),
         Command::Operate(arguments) => command::operate::operate(&arguments),
+        Command::Tape(arguments) => command::tape::tape(&arguments),
         Command::Plot(arguments) => command::plot::plot(&arguments),
         Command::Controls(arguments) => command::controls::controls(&arguments),
     }

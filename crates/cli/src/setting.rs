@@ -124,15 +124,7 @@ fn setup_of(arguments: &SettingArguments, common_offsets: bool) -> Result<Setup,
         }
     }
     for text in &arguments.parameter {
-        let (name, value) = split("parameter", text)?;
-        let (name, bit) = match name.split_once('.') {
-            Some((number, bit)) if number.bytes().all(|b| b.is_ascii_digit()) => {
-                let bit = bit.parse().map_err(|_| Failure::call(format!("--parameter {text}: `{bit}` is no bit")))?;
-                (number, Some(bit))
-            }
-            _ => (name, None),
-        };
-        setup.parameters.push(ParameterSetting { name: name.to_owned(), bit, value: value.to_owned() });
+        setup.parameters.push(parameter(text)?);
     }
     for text in &arguments.switch {
         setup.switches.push(station::split_switch(text).map_err(Failure::call)?);
@@ -149,6 +141,19 @@ fn setup_of(arguments: &SettingArguments, common_offsets: bool) -> Result<Setup,
         setup.policies.push((name.to_owned(), value.to_owned()));
     }
     Ok(setup)
+}
+
+/// `6005=0b100`, or `6005.2=1` for one bit.
+pub fn parameter(text: &str) -> Result<ParameterSetting, Failure> {
+    let (name, value) = split("parameter", text)?;
+    let (name, bit) = match name.split_once('.') {
+        Some((number, bit)) if number.bytes().all(|b| b.is_ascii_digit()) => {
+            let bit = bit.parse().map_err(|_| Failure::call(format!("--parameter {text}: `{bit}` is no bit")))?;
+            (number, Some(bit))
+        }
+        _ => (name, None),
+    };
+    Ok(ParameterSetting { name: name.to_owned(), bit, value: value.to_owned() })
 }
 
 /// `31=10.0`; with one common memory `H31` and `D31` name the same cell.

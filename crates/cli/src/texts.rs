@@ -6,7 +6,9 @@ use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use base::SourceId;
+use meaning::WINDOW;
 use station::{Library, LibraryError};
+use tape::{Codes, Format, IGNORED, UNREADABLE, recognise};
 
 use crate::failure::Failure;
 
@@ -23,6 +25,8 @@ struct Source {
     rest: Option<Box<dyn Read>>,
     /// Bytes of the file known to exist.
     length: u64,
+    /// Text or tape, once that was asked for.
+    format: Option<Format>,
 }
 
 /// The texts.
@@ -31,12 +35,19 @@ pub struct Texts {
     folders: Vec<PathBuf>,
     /// Programs in the control's memory, by their numbers.
     memory: BTreeMap<u32, SourceId>,
+    /// The codes of the control's tapes, if it reads any.
+    codes: Option<Codes>,
 }
 
 impl Texts {
     /// No texts yet; subprograms are looked up in these folders, in their order.
     pub fn new(folders: Vec<PathBuf>) -> Texts {
-        Texts { sources: Vec::new(), folders, memory: BTreeMap::new() }
+        Texts { sources: Vec::new(), folders, memory: BTreeMap::new(), codes: None }
+    }
+
+    /// Images of tapes are shown in these codes.
+    pub fn show_tapes(&mut self, codes: Option<Codes>) {
+        self.codes = codes;
     }
 
     /// Opens a program, `-` for standard input.
@@ -54,13 +65,13 @@ impl Texts {
             // A pipe or device cannot be read at any place: it is a stream like standard input.
             return self.spooled(name, Box::new(file));
         }
-        Ok(self.push(Source { name: name.to_owned(), file, at: 0, rest: None, length: facts.len() }))
+        Ok(self.push(Source { name: name.to_owned(), file, at: 0, rest: None, length: facts.len(), format: None }))
     }
 
     /// A stream, which is written to a temporary file as far as it is read.
     fn spooled(&mut self, name: &str, stream: Box<dyn Read>) -> Result<SourceId, Failure> {
         let file = tempfile::tempfile().map_err(|e| Failure::call(format!("no room to spool {name}: {e}")))?;
-        Ok(self.push(Source { name: name.to_owned(), file, at: 0, rest: Some(stream), length: 0 }))
+        Ok(self.push(Source { name: name.to_owned(), file, at: 0, rest: Some(stream), length: 0, format: None }))
     }
 
     /// A program in memory is found before any file.
@@ -91,11 +102,30 @@ impl Texts {
         self.sources.get(source.0 as usize).map_or(0, |source| source.length)
     }
 
-    /// Bytes of a source for showing them; what cannot be read is left out.
+    /// Characters of a source for showing them, one for each byte; what cannot be read is left out.
     pub fn excerpt(&mut self, source: SourceId, offset: u64, len: usize) -> Vec<u8> {
         let mut bytes = Vec::new();
+        if let (Some(codes), Some(Format::Tape(tape))) = (self.codes, self.format(source)) {
+            let _ = self.read(source, offset, len, &mut bytes);
+            Format::Tape(tape).translate(&codes, &mut bytes, offset, true);
+            readable(&mut bytes);
+            return bytes;
+        }
         let _ = self.read(source, offset, len, &mut bytes);
         bytes
+    }
+
+    /// How a source is read: text or tape.
+    fn format(&mut self, source: SourceId) -> Option<Format> {
+        let codes = self.codes?;
+        let known = self.sources.get(source.0 as usize)?.format;
+        known.or_else(|| {
+            let mut head = Vec::new();
+            let _ = self.read(source, 0, WINDOW, &mut head);
+            let format = recognise(&head, &codes);
+            self.sources.get_mut(source.0 as usize)?.format = Some(format);
+            Some(format)
+        })
     }
 
     /// The name that a program has unless an O word gives it one.
@@ -174,6 +204,21 @@ impl Library for Texts {
             };
         }
         Ok(None)
+    }
+}
+
+/// A tape's characters as people read them, up to the end of the block: rows that are passed over leave a blank, those
+/// that cannot be read a question mark.
+pub fn readable(characters: &mut Vec<u8>) {
+    let end = characters.iter().position(|&c| c == tape::END_OF_BLOCK).unwrap_or(characters.len());
+    let said = characters[..end].iter().rposition(|&c| c != IGNORED).map_or(0, |last| last + 1);
+    characters.truncate(said);
+    for character in characters {
+        match *character {
+            IGNORED => *character = b' ',
+            UNREADABLE => *character = b'?',
+            _ => {}
+        }
     }
 }
 

@@ -83,6 +83,11 @@ fn fill(text: &str, alarm: &Alarm, word: &str, axis: Option<(char, bool)>) -> St
                 let unit = if axis.is_some_and(|(_, turns)| turns) { "deg" } else { "mm" };
                 out.push_str(&format!("{} {unit}", plain(value(digit).unwrap_or(0.0))));
             }
+            Some((digit, "row")) => {
+                let row = value(digit).unwrap_or(0.0) as u8;
+                out.push_str(&format!("{row:02X} (channels {})", tape::holes(row)));
+            }
+            Some((digit, "characters")) => out.push_str(&tape::Guesses::text(value(digit).unwrap_or(0.0))),
             _ => match name {
                 "word" => out.push_str(word),
                 // The message in parentheses, where the word has one.

@@ -96,6 +96,15 @@ pub struct Tolerances {
     pub arc_end: usize,
 }
 
+/// How a control reads punched tape.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct TapeRules {
+    /// Index of the parameter, and its bit, that turns the check of block parity on.
+    pub block_parity: (usize, u8),
+    /// The macro characters, each with the index of the parameter that holds its EIA row.
+    pub eia_codes: Vec<(u8, usize)>,
+}
+
 /// A control, validated.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Control {
@@ -137,6 +146,8 @@ pub struct Control {
     pub stroke_outside: Option<(usize, u8)>,
     /// Index of the parameter whose bits 0 to 3 choose the axes of the mirror image: X, Y, Z, the fourth.
     pub mirror_setting: Option<usize>,
+    /// How punched tape is read; `None` on a control without tapes.
+    pub tape: Option<TapeRules>,
     /// Row of the base work system, if the control has one.
     pub base_system: Option<u8>,
     /// M codes the machine builder decides, those of the control, those above two digits.

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use tape::{CodeError, Codes};
+
 use crate::control::{Control, GroupCodes, GroupRule, MOST_GROUPS, NO_CODE};
 use crate::policy::{KNOWN, Options, Policies};
 use crate::row::{Division, ParameterKind};
@@ -181,6 +183,46 @@ impl Fitting {
     pub fn parameter_by_name(&self, control: &Control, name: &str) -> Option<f64> {
         let index = control.parameters.iter().position(|row| row.name.eq_ignore_ascii_case(name))?;
         self.parameters.get(index).copied()
+    }
+
+    /// The tape codes as the parameters have them; `None` on a control without tapes.
+    pub fn tape_codes(&self, control: &Control) -> Option<Codes> {
+        let mut codes = Codes::default();
+        for &(character, index) in &control.tape.as_ref()?.eia_codes {
+            // What cannot be a character's row was refused when it was set.
+            let _ = codes.assign(character, self.bits(index));
+        }
+        Some(codes)
+    }
+
+    /// True if the number of characters of a block on tape must be even.
+    pub fn checks_block_parity(&self, control: &Control) -> bool {
+        control.tape.as_ref().is_some_and(|tape| {
+            let (index, bit) = tape.block_parity;
+            self.bits(index) & (1 << bit) != 0
+        })
+    }
+
+    /// Refuses EIA rows that cannot be a character's; to be called when all parameters are set.
+    ///
+    /// # Errors
+    /// A row has an even number of holes, or belongs to another character.
+    pub fn check_tape_codes(&self, control: &Control) -> Result<(), FittingError> {
+        let mut codes = Codes::default();
+        for &(character, index) in control.tape.iter().flat_map(|tape| &tape.eia_codes) {
+            let row = self.bits(index);
+            let why = match codes.assign(character, row) {
+                Ok(()) => continue,
+                Err(CodeError::Even) => "has an even number of holes, and EIA characters have an odd one",
+                Err(CodeError::Taken | CodeError::Fixed) => "is that of another character",
+            };
+            let name = control.parameters.get(index).map_or("", |parameter| parameter.name.as_str());
+            let character = char::from(character);
+            return Err(FittingError(format!(
+                "parameter {name}: {character} cannot be punched {row:02X}, which {why}"
+            )));
+        }
+        Ok(())
     }
 
     fn bits(&self, index: usize) -> u8 {

@@ -21,7 +21,9 @@ pub use address::{Address, AddressKind, PointRule};
 pub use alarm::AlarmRow;
 pub use builtin::{builtin_controls, builtin_files};
 pub use combination::{Written, check_combination};
-pub use control::{Control, Group, GroupCodes, GroupRule, Grouping, MOST_GROUPS, NO_CODE, Roles, Tolerances};
+pub use control::{
+    Control, Group, GroupCodes, GroupRule, Grouping, MOST_GROUPS, NO_CODE, Roles, TapeRules, Tolerances,
+};
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use load::{ControlFiles, load_control};
 pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};

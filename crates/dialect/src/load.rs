@@ -10,7 +10,7 @@ mod user_macro;
 use data::{DataError, Document, Table};
 use syntax::{Colon, Grammar, LowerCase, Semicolon};
 
-use crate::control::{Control, Group, GroupRule, Grouping, MOST_GROUPS, Roles, Tolerances};
+use crate::control::{Control, Group, GroupRule, Grouping, MOST_GROUPS, Roles, TapeRules, Tolerances};
 use crate::meaning::Meaning;
 use crate::row::{Certainty, GCode, Origin, ParameterRow};
 
@@ -97,6 +97,7 @@ struct Head {
     universal_preset: Option<(String, u8)>,
     stroke_outside: Option<(String, u8)>,
     mirror_setting: Option<String>,
+    tape: Option<settings::TapeDraft>,
     groups: Vec<codes::GroupDraft>,
     options: Vec<crate::row::OptionRow>,
     policies: Vec<crate::row::PolicyRow>,
@@ -195,6 +196,7 @@ fn head(root: &mut Table) -> Head {
         universal_preset: universal_preset.flatten(),
         stroke_outside: stroke_outside.flatten(),
         mirror_setting: mirror_setting.flatten(),
+        tape: root.table("tape", settings::tape),
         groups: root.tables("group", codes::group),
         options: root.tables("option", settings::option),
         policies: root.tables("policy", settings::policy),
@@ -238,6 +240,10 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         Some(name) => Some(parameter_index(files, &parameters, name)?),
         None => None,
     };
+    let tape = match &head.tape {
+        Some(draft) => Some(resolve_tape(files, draft, &parameters)?),
+        None => None,
+    };
     let tolerances = Tolerances {
         cycle_clearance: parameter_index(files, &parameters, "cycle clearance")?,
         arc_radius: parameter_index(files, &parameters, "arc radius tolerance")?,
@@ -263,6 +269,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         universal_preset,
         stroke_outside,
         mirror_setting,
+        tape,
         base_system,
         m_ranges,
         groups,
@@ -291,6 +298,26 @@ fn parameter_index(files: &ControlFiles, rows: &[ParameterRow], name: &str) -> R
     rows.iter()
         .position(|row| row.name == name)
         .ok_or_else(|| refuse(files, "parameters.toml", format!("the parameter \"{name}\" is missing")))
+}
+
+fn resolve_tape(
+    files: &ControlFiles,
+    draft: &settings::TapeDraft,
+    parameters: &[ParameterRow],
+) -> Result<TapeRules, Vec<DataError>> {
+    let (name, bit) = &draft.block_parity;
+    let eia_codes = draft.eia_codes.iter().map(|(character, name)| {
+        if tape::PUNCTUATION.contains(character) {
+            Ok((*character, parameter_index(files, parameters, name)?))
+        } else {
+            let character = char::from(*character);
+            Err(refuse(files, "control.toml", format!("tape: `{character}` has its EIA row by the standard")))
+        }
+    });
+    Ok(TapeRules {
+        block_parity: (parameter_index(files, parameters, name)?, *bit),
+        eia_codes: eia_codes.collect::<Result<_, _>>()?,
+    })
 }
 
 /// The names of a group's states as rows of the G table.

@@ -368,7 +368,7 @@ impl Interpreter {
     fn take_bytes(&mut self, source: SourceId, offset: u64, len: usize, bytes: &[u8], last: bool) {
         let last = last || bytes.is_empty();
         if self.gathered.is_empty() && (last || bytes.len() >= len) {
-            self.reader.supply.fill(source, offset, bytes, last);
+            self.reader.take(source, offset, bytes, last);
             return;
         }
         self.gathered.extend_from_slice(bytes);
@@ -378,7 +378,7 @@ impl Interpreter {
             return;
         }
         let start = offset + bytes.len() as u64 - self.gathered.len() as u64;
-        self.reader.supply.fill(source, start, &self.gathered, last);
+        self.reader.take(source, start, &self.gathered, last);
         self.gathered.clear();
     }
 

@@ -341,6 +341,7 @@ impl Search {
                 (Stage::Asked, _) => return Progress::Done(None),
                 (Stage::Scan(source) | Stage::Brought(source), _) => source,
             };
+            self.cursor = supply.begin(source, self.cursor);
             let view = supply.view(source, self.cursor.offset);
             let last = view.last;
             let ended = match read_block(view.characters, last, self.cursor, grammar, block) {

@@ -1,6 +1,7 @@
 //! The reading side of the control: one block after the other, through calls and returns, as commands.
 
 mod doubt;
+mod rows;
 
 use std::collections::VecDeque;
 
@@ -24,6 +25,7 @@ use crate::user_macro::store::{Store, UNFOUND};
 use crate::user_macro::trouble::Trouble;
 use crate::user_macro::{BLANK, LOCALS};
 use crate::word::Refusal;
+use rows::Unsound;
 
 /// What came of reading.
 pub(crate) enum Read {
@@ -216,7 +218,8 @@ impl Reader {
             if let Some(needs) = self.search_on() {
                 return needs;
             }
-            let Some(&frame) = self.calls.top() else { return Read::Ended };
+            let Some(&(mut frame)) = self.calls.top() else { return Read::Ended };
+            frame.cursor = self.supply.begin(frame.source, frame.cursor);
             if let Some(head) = self.asks_again.take() {
                 return self.ask_again(head, &frame, command);
             }
@@ -224,6 +227,7 @@ impl Reader {
                 return Read::Pause;
             }
             let kept = if self.store.is_empty() { None } else { self.store.find(frame.source, frame.cursor.offset) };
+            let mut unsound = None;
             let line = match kept {
                 Some(index) => {
                     let Some(line) = self.store.line(index) else { return Read::Ended };
@@ -236,11 +240,9 @@ impl Reader {
                     self.store.load(line, &mut self.block);
                     Some(index)
                 }
-                None => match self.read_text(&frame) {
+                None => match self.read_text(&frame, &mut unsound) {
                     Ok(line) => line,
-                    Err(Text::More) => {
-                        return Read::NeedBytes { source: frame.source, offset: frame.cursor.offset };
-                    }
+                    Err(Text::More) => return self.need(frame.source, frame.cursor.offset),
                     Err(Text::End) => return self.end_of_text(&frame, command),
                     Err(Text::Refused(refused)) => match self.refuse_statement(refused, &frame, command) {
                         Some(read) => return read,
@@ -248,10 +250,10 @@ impl Reader {
                     },
                 },
             };
-            if self.block.rewind && (frame.begun || frame.opened) {
+            if unsound.is_none() && self.closes(&frame) {
                 return self.end_of_text(&frame, command);
             }
-            if self.block.rewind || self.block.is_empty() {
+            if unsound.is_none() && (self.block.rewind || self.block.is_empty()) {
                 if let Some(frame) = self.calls.frames.last_mut() {
                     frame.cursor = self.block.next;
                     frame.opened |= self.block.rewind;
@@ -265,6 +267,7 @@ impl Reader {
                 self.name_program();
             }
             let read = match line {
+                None if unsound.is_some() => self.refuse_rows(unsound, &frame, command),
                 Some(line) => self.take_line(line, &frame, command),
                 None => {
                     self.word_values.clear();
@@ -278,16 +281,23 @@ impl Reader {
     }
 
     /// Reads the next block from its text, and compiles and keeps it if statements or variables stand in it, or if it
-    /// stands in a loop or macro.
-    fn read_text(&mut self, frame: &Frame) -> Result<Option<u32>, Text> {
+    /// stands in a loop or macro. Of a tape it also says what is wrong with the block's rows.
+    fn read_text(&mut self, frame: &Frame, unsound: &mut Option<Unsound>) -> Result<Option<u32>, Text> {
         let Frame { source, cursor, .. } = *frame;
-        let view = self.supply.view(source, cursor.offset);
-        let block = &mut self.block;
-        match read_block(view.characters, view.last, cursor, &self.setting.control.grammar, block) {
+        let mut view = self.supply.view(source, cursor.offset);
+        match read_block(view.characters, view.last, cursor, &self.setting.control.grammar, &mut self.block) {
             Outcome::More => return Err(Text::More),
             Outcome::End => return Err(Text::End),
             Outcome::Block => {}
         }
+        if !view.rows.is_empty() {
+            *unsound = self.unsound(frame);
+            if unsound.is_some() {
+                return Ok(None);
+            }
+            view = self.supply.view(source, cursor.offset);
+        }
+        let block = &mut self.block;
         let runs = block.statement.is_some() || block.variables;
         let turned = !self.calls.loops.is_empty() || frame.level > 0;
         if !(runs || turned) || !block.faults.is_empty() || block.rewind {
@@ -386,7 +396,7 @@ impl Reader {
         let search = self.search.as_mut()?;
         let grammar = self.setting.control.grammar;
         match search.advance(&mut self.supply, &grammar, &mut self.names, &mut self.block, &mut self.calls.index) {
-            Progress::NeedBytes { source, offset } => Some(Read::NeedBytes { source, offset }),
+            Progress::NeedBytes { source, offset } => Some(self.need(source, offset)),
             Progress::NeedProgram { number } => Some(Read::NeedProgram { number }),
             Progress::Done(found) => {
                 let target = search.target();
@@ -451,6 +461,7 @@ impl Reader {
             }
             Err(Refusal::Alarm(alarm)) => {
                 self.begin(self.block.next, command);
+                let alarm = self.name_row(alarm);
                 self.refuse(alarm, command)
             }
         }

@@ -1,10 +1,13 @@
 //! Windows onto the texts of programs: what was read is kept a while, so that short subprograms are not asked for anew.
 
-use base::SourceId;
-use tape::Reader;
+use std::collections::BTreeMap;
 
-/// How many bytes of a text are asked for at a time. Texts are read as [`tape::Text`]; a punched tape's reader takes
-/// its place here, one for each source.
+use base::SourceId;
+use syntax::Cursor;
+use tape::{Codes, Format};
+
+/// How many bytes of a text are asked for at a time. The first window of a source decides whether it is text or the
+/// image of a punched tape, and in which code: [`tape::recognise`].
 pub const WINDOW: usize = 64 * 1024;
 /// How many windows are kept.
 const WINDOWS: usize = 4;
@@ -13,6 +16,8 @@ struct Window {
     source: SourceId,
     start: u64,
     bytes: Vec<u8>,
+    /// The rows of a tape as they are punched; nothing of a text.
+    rows: Vec<u8>,
     last: bool,
     used: u64,
 }
@@ -20,6 +25,7 @@ struct Window {
 /// The windows.
 pub(crate) struct Supply {
     windows: Vec<Window>,
+    formats: BTreeMap<SourceId, Format>,
     current: usize,
     clock: u64,
 }
@@ -27,18 +33,40 @@ pub(crate) struct Supply {
 /// The characters of a text from an offset on.
 pub(crate) struct View<'a> {
     pub characters: &'a [u8],
+    /// The same as the rows of a tape; nothing of a text.
+    pub rows: &'a [u8],
     /// The text ends with them.
     pub last: bool,
 }
 
 impl Supply {
     pub fn new() -> Supply {
-        Supply { windows: Vec::with_capacity(WINDOWS), current: 0, clock: 0 }
+        Supply { windows: Vec::with_capacity(WINDOWS), formats: BTreeMap::new(), current: 0, clock: 0 }
     }
 
     /// Forgets every window; texts may have changed.
     pub fn clear(&mut self) {
         self.windows.clear();
+        self.formats.clear();
+    }
+
+    /// How a source is read, once its beginning has been seen.
+    pub fn format(&self, source: SourceId) -> Option<Format> {
+        self.formats.get(&source).copied()
+    }
+
+    /// The bytes to ask for where there is nothing at hand from `offset` on: a source's first window is its beginning.
+    pub fn wanted(&self, source: SourceId, offset: u64) -> u64 {
+        if self.formats.contains_key(&source) { offset } else { 0 }
+    }
+
+    /// Where reading really begins: the head of a tape is behind its label.
+    pub fn begin(&self, source: SourceId, cursor: Cursor) -> Cursor {
+        if cursor.offset > 0 {
+            return cursor;
+        }
+        let head = self.format(source).unwrap_or_default().head();
+        Cursor { offset: head, line_start: head, ..cursor }
     }
 
     /// What is at hand from `offset` on; no characters if nothing is.
@@ -56,16 +84,24 @@ impl Supply {
                     self.clock += 1;
                     self.windows[found].used = self.clock;
                 }
-                None => return View { characters: &[], last: false },
+                None => return View { characters: &[], rows: &[], last: false },
             }
         }
         let window = &self.windows[self.current];
-        View { characters: &window.bytes[(offset - window.start) as usize..], last: window.last }
+        let from = (offset - window.start) as usize;
+        View { characters: &window.bytes[from..], rows: window.rows.get(from..).unwrap_or_default(), last: window.last }
     }
 
-    /// Takes the bytes of a source from `offset` on into a window.
-    pub fn fill(&mut self, source: SourceId, offset: u64, bytes: &[u8], last: bool) {
+    /// Takes the bytes of a source from `offset` on into a window. `codes` are those of the control's tapes, if it
+    /// reads any.
+    pub fn fill(&mut self, source: SourceId, offset: u64, bytes: &[u8], last: bool, codes: Option<Codes>) {
         self.clock += 1;
+        let codes_at_hand = codes.unwrap_or_default();
+        if offset == 0 && !self.formats.contains_key(&source) {
+            let format = codes.map_or(Format::Text, |codes| tape::recognise(bytes, &codes));
+            self.formats.insert(source, format);
+        }
+        let format = self.format(source).unwrap_or_default();
         // A window that this one continues is read through; otherwise the one that was not used for longest goes.
         let continued = self
             .windows
@@ -75,7 +111,7 @@ impl Supply {
             Some(slot) => slot,
             None if self.windows.len() < WINDOWS => {
                 let bytes = Vec::with_capacity(WINDOW);
-                self.windows.push(Window { source, start: offset, bytes, last, used: 0 });
+                self.windows.push(Window { source, start: offset, bytes, rows: Vec::new(), last, used: 0 });
                 self.windows.len() - 1
             }
             None => self.windows.iter().enumerate().min_by_key(|(_, w)| w.used).map_or(0, |(slot, _)| slot),
@@ -87,7 +123,11 @@ impl Supply {
         window.used = self.clock;
         window.bytes.clear();
         window.bytes.extend_from_slice(bytes);
-        let settled = tape::Text.translate(&mut window.bytes, offset, last);
+        window.rows.clear();
+        if format != Format::Text {
+            window.rows.extend_from_slice(bytes);
+        }
+        let settled = format.translate(&codes_at_hand, &mut window.bytes, offset, last);
         window.bytes.truncate(settled);
         self.current = slot;
     }

@@ -3,11 +3,12 @@
 use base::SourceId;
 use meaning::WINDOW;
 use syntax::{Block, Cursor, Grammar, Outcome, Value, read_block};
-use tape::{Reader, Text};
+use tape::{Codes, Format, recognise};
 
 use crate::library::{Library, LibraryError};
 
-/// The numbers of the programs in a text and where each begins, in their order; the first of a number counts.
+/// The numbers of the programs in a text and where each begins, in their order; the first of a number counts. `codes`
+/// are those of the control's tapes, if it reads any.
 ///
 /// # Errors
 /// The text cannot be read.
@@ -15,10 +16,13 @@ pub fn programs_in(
     library: &mut impl Library,
     source: SourceId,
     grammar: &Grammar,
+    codes: Option<Codes>,
 ) -> Result<Vec<(u32, Cursor)>, LibraryError> {
     let mut programs: Vec<(u32, Cursor)> = Vec::new();
     let (mut block, mut bytes, mut begun) = (Block::default(), Vec::new(), false);
     let (mut cursor, mut start, mut last, mut settled) = (Cursor::HEAD, 0u64, false, 0usize);
+    let mut format = None;
+    let codes_at_hand = codes.unwrap_or_default();
     loop {
         let window = &bytes[((cursor.offset - start) as usize).min(settled)..settled];
         match read_block(window, last, cursor, grammar, &mut block) {
@@ -27,7 +31,13 @@ pub fn programs_in(
             Outcome::More => {
                 start = cursor.offset;
                 last = read_window(library, source, start, &mut bytes)?;
-                settled = Text.translate(&mut bytes, start, last);
+                let format = *format.get_or_insert_with(|| {
+                    let format = codes.map_or(Format::Text, |codes| recognise(&bytes, &codes));
+                    // A tape begins behind its label.
+                    cursor = Cursor { offset: format.head(), line_start: format.head(), ..cursor };
+                    format
+                });
+                settled = format.translate(&codes_at_hand, &mut bytes, start, last);
                 continue;
             }
         }

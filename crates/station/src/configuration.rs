@@ -126,6 +126,7 @@ impl Configuration {
         }
         configuration.check_start()?;
         configuration.fitting.check_options(&configuration.control).map_err(|error| wrong(error.0))?;
+        configuration.fitting.check_tape_codes(&configuration.control).map_err(|error| wrong(error.0))?;
         Ok(configuration)
     }
 

@@ -87,8 +87,12 @@ fn allocations(session: &mut Session<Texts>, source: u32) -> (u64, u64) {
 
 /// The same kind of program, short and long, after both have been run once.
 fn check(what: &str, line: impl Fn(usize) -> String) {
+    check_texts(what, vec![program(SMALL, &line), program(LARGE, &line)]);
+}
+
+fn check_texts(what: &str, texts: Vec<Vec<u8>>) {
     for after in [AfterAlarm::Stand, AfterAlarm::GoOn] {
-        let texts = Texts { texts: vec![program(SMALL, &line), program(LARGE, &line)], ..Texts::default() };
+        let texts = Texts { texts: texts.clone(), ..Texts::default() };
         let mut session = Session::new(configuration(machine("unlimited", None), &Setup::default()), texts);
         session.set_after_alarm(after);
         for _ in 0..WARM {
@@ -112,6 +116,16 @@ fn the_counter_counts() {
 #[test]
 fn lines_allocate_nothing() {
     check("lines", |n| format!("N{}G01X{}.5Y-.{}Z0(CUT)", n % 9999 + 1, n % 90, n % 77));
+}
+
+#[test]
+fn tapes_allocate_nothing() {
+    let how = tape::Punch { system: tape::System::Eia, leader: 100, even: true, semicolon_ends: true };
+    let tape = |lines| {
+        let text = program(lines, |n| format!("N{}G01X{}.5Y-.{}Z0(CUT)", n % 9999 + 1, n % 90, n % 77));
+        tape::punch(&text, how, &tape::Codes::default()).expect("EIA has its characters")
+    };
+    check_texts("tapes", vec![tape(SMALL), tape(LARGE)]);
 }
 
 #[test]

@@ -109,8 +109,8 @@ proptest! {
     #[test]
     fn the_programs_of_a_text_are_found_in_any_pieces(text in programs::program(&control()), pieces in pieces()) {
         let grammar = control().grammar;
-        let whole = programs_in(&mut Texts::one(text.as_str()), SourceId(0), &grammar);
-        prop_assert_eq!(&programs_in(&mut Texts::one(text.as_str()).in_pieces(&pieces), SourceId(0), &grammar), &whole);
+        let whole = programs_in(&mut Texts::one(text.as_str()), SourceId(0), &grammar, None);
+        prop_assert_eq!(&programs_in(&mut Texts::one(text.as_str()).in_pieces(&pieces), SourceId(0), &grammar, None), &whole);
         for (number, cursor) in whole.expect("texts in memory can be read") {
             let here = &text.as_bytes()[cursor.offset as usize..];
             prop_assert!(here.starts_with(b"O") || here.starts_with(b":"), "O{number} at {cursor:?}");

@@ -1,17 +1,36 @@
 //! Bytes to characters, one for one, so that a character's place in the file is its place in the program.
 //!
 //! Comes in: a chunk of a file as it is. Goes out: the same chunk in the control's characters (ASCII, with
-//! [`END_OF_BLOCK`] and [`IGNORED`]). Must never know: what the characters mean.
-//! A reader for punched tape (EIA RS-244, ISO 840) is another [`Reader`]: one byte of tape is one character too.
+//! [`END_OF_BLOCK`], [`IGNORED`] and [`UNREADABLE`]). Must never know: what the characters mean.
+//! A file is ordinary text ([`Text`]) or the image of a punched tape, one byte a row ([`Punched`]): [`recognise`] says
+//! which, [`faults`] what is wrong with its rows. The codes are ISO 840 and EIA RS-244 (`code.rs`).
 
+mod code;
+mod damage;
+mod draw;
+mod punch;
+mod punched;
+mod read;
+mod recognise;
+mod strip;
 mod text;
 
+pub use code::{CodeError, Codes, PUNCTUATION, System, Table, character_name, holes};
+pub use damage::{Fault, Faults, Guesses, faults, is_odd};
+pub use draw::draw;
+pub use punch::{Lacking, Punch, punch};
+pub use punched::Punched;
+pub use read::{Finding, Written, Wrong, read_tape};
+pub use recognise::{Format, Tape, recognise};
+pub use strip::strip;
 pub use text::Text;
 
 /// The character that ends a line of the program.
 pub const END_OF_BLOCK: u8 = b'\n';
 /// The character that the control passes over, wherever it stands.
 pub const IGNORED: u8 = 0;
+/// The character that stands for a row of tape that is none: ASCII has this one, SUB, for characters found in error.
+pub const UNREADABLE: u8 = 0x1A;
 
 /// One way in which programs are stored as bytes.
 pub trait Reader {

@@ -83,11 +83,14 @@ fn load(
         Some(beside) if !Path::new(file).exists() && beside.exists() => beside.to_string_lossy().into_owned(),
         _ => file.to_owned(),
     };
-    let grammar = operator.session.configuration().control.grammar;
+    let configuration = operator.session.configuration();
+    let grammar = configuration.control.grammar;
+    let codes = configuration.fitting.tape_codes(&configuration.control);
     let texts = operator.session.library_mut();
+    texts.show_tapes(codes);
     let source = texts.open(&path)?;
     texts.look_beside(&path);
-    let found = programs_in(texts, source, &grammar).map_err(Failure::call)?;
+    let found = programs_in(texts, source, &grammar, codes).map_err(Failure::call)?;
     let mut programs = Vec::new();
     for (number, head) in found {
         texts.keep_in_memory(number, source);

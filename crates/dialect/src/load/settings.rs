@@ -60,6 +60,25 @@ pub(super) fn parameters(root: &mut Table) -> Vec<ParameterRow> {
     })
 }
 
+/// How tapes are read, the parameters still by their names.
+pub(super) struct TapeDraft {
+    pub block_parity: (String, u8),
+    pub eia_codes: Vec<(u8, String)>,
+}
+
+pub(super) fn tape(table: &mut Table) -> TapeDraft {
+    table.require("block_parity");
+    let block_parity = table.table("block_parity", |row| {
+        let bit = row.integer("bit").and_then(|n| u8::try_from(n).ok()).unwrap_or(0);
+        (row.required_string("parameter"), bit.min(7))
+    });
+    let eia_codes = table.tables("eia_codes", |row| {
+        let character = row.required_string("character");
+        (character.bytes().next().unwrap_or(0), row.required_string("parameter"))
+    });
+    TapeDraft { block_parity: block_parity.unwrap_or_default(), eia_codes }
+}
+
 pub(super) fn addresses(root: &mut Table) -> [Option<Address>; 26] {
     let mut all: [Option<Address>; 26] = std::array::from_fn(|_| None);
     let rows = root.tables("address", |row| {
