@@ -8,9 +8,13 @@ use dialect::{MMeaning, MOver99};
 
 use crate::block::{Flow, Reading};
 use crate::command::{Finish, MOST_CODES};
+use crate::cycle::Spindle;
 use crate::operation::{CodeLine, CodeOut, EndKind};
 use crate::state::Corner;
 use crate::word::Refusal;
+
+/// The highest of the two-digit codes that stand for spindle speeds.
+const HIGHEST_SPEED_CODE: u32 = 99;
 
 impl Reading<'_> {
     /// Takes the block's codes; returns where the program goes on.
@@ -21,8 +25,13 @@ impl Reading<'_> {
         let control = self.control();
         let digits = self.setting.facts.codes.digits;
         if let Some(speed) = self.words.count(control, b'S')? {
+            let coded = !self.setting.fitting.options.spindle_rpm;
+            if coded && speed > HIGHEST_SPEED_CODE {
+                let values = [f64::from(speed), 0.0, f64::from(HIGHEST_SPEED_CODE)];
+                return Err(self.words.alarm(Condition::ValueOutOfRange, b'S').with(values).into());
+            }
             self.next.spindle = speed;
-            self.send(CodeLine::S, b'S', speed, digits[1], false)?;
+            self.send(CodeLine::S, b'S', speed, if coded { 2 } else { digits[1] }, false)?;
         }
         if let Some(tool) = self.words.count(control, b'T')? {
             self.next.tool = tool;
@@ -116,6 +125,9 @@ impl Reading<'_> {
         let within = |range: [u32; 2]| range[0] <= code && code <= range[1];
         if within(control) || !(within(machine) || within(extended)) {
             return Err(self.words.alarm_at(Condition::MUnknown, word).with([f64::from(code), 0.0, 0.0]));
+        }
+        if let Some(direction) = Spindle::direction_of(code, &self.setting.control.cycle_codes) {
+            self.next.spindle_direction = Some(direction);
         }
         let after = self.setting.facts.codes.m_after_motion.contains(&code);
         let lines = if within(extended) && !self.setting.fitting.options.m_three_digits { 2 } else { digits };

@@ -84,7 +84,6 @@ impl Reading<'_> {
         for (index, _) in control.groups.iter().enumerate() {
             let unbuilt = match control.in_force(&self.next.groups, index) {
                 Some(Meaning::RotationOn) => true,
-                Some(code) if code.is_cycle() => crate::cycle::steps_of(code).is_none(),
                 _ => false,
             };
             if unbuilt && self.groups_written & (1 << index) != 0 {

@@ -5,7 +5,7 @@
 use base::{AXES, AxisSet, Point};
 use dialect::GroupCodes;
 
-use crate::cycle::CycleData;
+use crate::cycle::{CycleData, Spindle};
 use crate::interrupt::Interrupt;
 use crate::reference_point::ReferenceData;
 use crate::stroke::StrokeBox;
@@ -89,6 +89,10 @@ pub struct State {
     pub stroke: StrokeBox,
     /// Scale and mirror.
     pub transform: Transform,
+    /// Which way the spindle was last told to turn, by the program or by a cycle; a stop does not change it.
+    pub spindle_direction: Option<Spindle>,
+    /// Changes with every value that the program writes into memory, and comes back when the value does.
+    pub memory_mark: u64,
     /// What cannot be known after a refused block.
     pub unknown: Unknown,
 }
@@ -123,6 +127,8 @@ impl State {
             corner: Corner::NotProgrammed,
             stroke: StrokeBox::NONE,
             transform: Transform::default(),
+            spindle_direction: None,
+            memory_mark: 0,
             unknown: Unknown::default(),
         }
     }
