@@ -126,9 +126,6 @@ impl Reading<'_> {
         if within(control) || !(within(machine) || within(extended)) {
             return Err(self.words.alarm_at(Condition::MUnknown, word).with([f64::from(code), 0.0, 0.0]));
         }
-        if let Some(direction) = Spindle::direction_of(code, &self.setting.control.cycle_codes) {
-            self.next.spindle_direction = Some(direction);
-        }
         let after = self.setting.facts.codes.m_after_motion.contains(&code);
         let lines = if within(extended) && !self.setting.fitting.options.m_three_digits { 2 } else { digits };
         let sent = if code >= 10u32.saturating_pow(u32::from(lines))
@@ -138,6 +135,9 @@ impl Reading<'_> {
         } else {
             code
         };
+        if let Some(direction) = Spindle::direction_of(sent, &self.setting.control.cycle_codes) {
+            self.next.spindle_direction = Some(direction);
+        }
         self.push_code(CodeLine::M, sent, lines, after, word)
     }
 

@@ -222,3 +222,43 @@ pub(crate) fn store(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_cycle_has_its_steps_and_comes_to_an_end() {
+        let places = Places::Row { first: [0.0; base::AXES], step: [0.0; base::AXES], count: 1 };
+        let holes = Holes {
+            cycle: None,
+            places,
+            approach: [0.0; base::AXES],
+            axis: 2,
+            r: 2e6,
+            bottom: -5e6,
+            end: 10e6,
+            peck: 3e6,
+            clearance: 1e6,
+            dwell: 0.0,
+            shift: [1e6, 0.0],
+            shift_axes: [0, 1],
+            restart: None,
+            by_hand: false,
+            feed: Feed { mm_per_min: 100.0, exact_stop: false, tapping: false },
+            rapid: RapidKind::Checked,
+        };
+        for &(name, cycle) in Meaning::TABLE.iter().filter(|(_, meaning)| meaning.is_cycle()) {
+            let (mut at, mut steps, mut level) = (Cursor::default(), 0, holes.end);
+            loop {
+                match next_step(cycle, &holes, &mut at) {
+                    Step::Done => break,
+                    Step::Rapid(to) | Step::Feed(to) | Step::Tap(to) => level = to,
+                    _ => {}
+                }
+                steps += 1;
+            }
+            assert!((2..=12).contains(&steps) && level == holes.end, "{name}: {steps} steps, left at {level}");
+        }
+    }
+}

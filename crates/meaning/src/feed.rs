@@ -1,6 +1,7 @@
 //! F: per minute, per revolution, one digit for a stored feed; what a cutting move makes of it.
 
-use base::{Alarm, Condition};
+use base::units::NM_PER_INCH;
+use base::{AXES, Alarm, Condition, Point, UnitSystem};
 use dialect::{FeedModeChange, InchFeedInteger, Meaning};
 
 use crate::block::Reading;
@@ -21,7 +22,7 @@ impl Reading<'_> {
         let per_revolution = self.is_per_revolution();
         let one_digit = number.digits == 1 && !number.point && !number.negative;
         if one_digit && !per_revolution && self.setting.fitting.options.one_digit_feed {
-            self.next.feed = FeedWord { nanometres: self.stored_feed(number.mantissa)?, per_revolution };
+            self.next.feed = FeedWord { nanometres: self.stored_feed(number.mantissa)?, per_revolution, inch: false };
             return Ok(());
         }
         let nanometres = if per_revolution {
@@ -31,7 +32,7 @@ impl Reading<'_> {
             control.feed_per_minute(address, number, self.units, tenths)
         };
         let nanometres = nanometres.map_err(|(condition, values)| self.words.alarm(condition, b'F').with(values))?;
-        self.next.feed = FeedWord { nanometres, per_revolution };
+        self.next.feed = FeedWord { nanometres, per_revolution, inch: self.units == UnitSystem::Inch };
         Ok(())
     }
 
@@ -49,15 +50,30 @@ impl Reading<'_> {
         Ok(mm_per_min * 1e6)
     }
 
+    /// The feed of a straight cut to `to`. If rotary axes alone move, F is degrees a minute or a turn, in inches too.
+    pub fn feed_to(&self, to: &Point) -> Result<Feed, Alarm> {
+        if !self.next.feed.inch {
+            return self.feed();
+        }
+        let axes = self.setting.facts.axes.iter().enumerate().take(AXES);
+        let mut moving = axes.filter(|&(axis, _)| to[axis] != self.next.machine[axis]).peekable();
+        let turns = moving.peek().is_some() && moving.all(|(_, facts)| facts.rotary);
+        if turns { self.feed_by(1e6 / NM_PER_INCH as f64) } else { self.feed() }
+    }
+
     /// The feed of a cutting move.
     pub fn feed(&self) -> Result<Feed, Alarm> {
+        self.feed_by(1.0)
+    }
+
+    fn feed_by(&self, factor: f64) -> Result<Feed, Alarm> {
         let per_revolution = self.is_per_revolution();
         let keeps = self.setting.fitting.policies.feed_mode_change == FeedModeChange::KeepsNumber;
         let feed = self.next.feed;
         if feed.nanometres <= 0.0 || (feed.per_revolution != per_revolution && !keeps) {
             return Err(self.motion_alarm(Condition::FeedMissing));
         }
-        let mut mm = feed.nanometres / 1e6;
+        let mut mm = feed.nanometres / 1e6 * factor;
         if per_revolution {
             mm *= self.spindle_rpm().map_err(|condition| self.motion_alarm(condition))?;
         }

@@ -76,7 +76,7 @@ impl Reading<'_> {
                 self.now_known = self.now_known.or(moved);
                 match motion {
                     Meaning::Linear => {
-                        let feed = self.feed()?;
+                        let feed = self.feed_to(&to)?;
                         self.command.body = Body::Line { to, feed };
                     }
                     Meaning::OneSidedPositioning => self.one_sided(to, moved),
@@ -114,7 +114,7 @@ impl Reading<'_> {
         }
         let roles = self.setting.control.roles;
         self.command.body = match self.setting.control.in_force(&self.next.groups, roles.motion) {
-            Some(Meaning::Linear) => Body::Line { to, feed: self.feed()? },
+            Some(Meaning::Linear) => Body::Line { to, feed: self.feed_to(&to)? },
             _ => Body::Rapid { to, kind: RapidKind::Checked },
         };
         self.now_known = self.now_known.or(axes);

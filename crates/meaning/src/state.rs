@@ -19,6 +19,8 @@ pub struct FeedWord {
     pub nanometres: f64,
     /// True if it was programmed per revolution.
     pub per_revolution: bool,
+    /// True if it was programmed in inches: of a rotary axis alone the number counts degrees all the same.
+    pub inch: bool,
 }
 
 /// How tool radius compensation goes round outside corners.
