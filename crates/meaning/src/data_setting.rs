@@ -157,10 +157,14 @@ fn mark(place: u64, value: f64) -> u64 {
 mod tests {
     use super::*;
     use crate::facts::OffsetTable;
+    use crate::user_macro::Variables;
 
     #[test]
     fn the_mark_comes_back_with_the_value() {
-        let mut memory = Memory { lengths: OffsetTable::new(99), radii: None, work: [[0.0; AXES]; 6] };
+        let files = dialect::builtin_files("yasnac-mx1").expect("it is built in");
+        let control = dialect::load_control(&files).expect("it loads");
+        let variables = Variables::new(&control.user_macro, 1);
+        let mut memory = Memory { lengths: OffsetTable::new(99), radii: None, work: [[0.0; AXES]; 6], variables };
         let first = memory.write(DataWrite::Offset { number: 3, value: 5e6 });
         let second = memory.write(DataWrite::Offset { number: 3, value: 0.0 });
         assert!(first != 0 && first ^ second == 0);

@@ -228,7 +228,7 @@ impl Expansion {
                 (0 | 1, _) => {
                     // A place without a hole ends the block if it is the last.
                     *stop_point = phase == 1 && (holes.cycle.is_some() || self.hole + 1 < count);
-                    self.to_place(phase == 0, holes, around)
+                    self.place_move(phase == 0, holes, around)
                 }
                 (2, Some(cycle)) if begins_at_r(cycle) => {
                     self.position[usize::from(holes.axis)] = holes.r;
@@ -258,7 +258,7 @@ impl Expansion {
     }
 
     /// The move to the hole's place, or before it to where the approach from one side begins.
-    fn to_place(&mut self, approaching: bool, holes: &Holes, around: &Surroundings) -> Option<Act> {
+    fn place_move(&mut self, approaching: bool, holes: &Holes, around: &Surroundings) -> Option<Act> {
         let axis = usize::from(holes.axis);
         let mut place = holes.places.at(self.hole);
         if holes.cycle.is_some() {
