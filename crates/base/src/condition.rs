@@ -149,6 +149,10 @@ conditions! {
     FeedMissing = "feed-missing",
     /// Feed per revolution and spindle speed zero: the axes would wait for ever.
     SpindleSpeedMissing = "spindle-speed-missing",
+    /// Feed or dwell per revolution where S is a two-digit code, so that no speed is known.
+    SpindleSpeedCoded = "spindle-speed-coded",
+    /// A one-digit F under which no feed is stored. Values: digit.
+    StoredFeedMissing = "stored-feed-missing",
     /// An arc with neither centre nor radius.
     ArcWithoutCentre = "arc-without-centre",
     /// An arc that starts on its own centre.
@@ -159,12 +163,28 @@ conditions! {
     ArcEndOff = "arc-end-off",
     /// No such offset number. Values: number, highest number.
     OffsetNumber = "offset-number",
-    /// An offset value beyond what the memory holds. Values: mm, limit mm.
+    /// Data written by a program name no such number. Values: number (0 if missing), highest.
+    DataNumber = "data-number",
+    /// Data of a kind that a program cannot write. Values: kind.
+    DataKindUnknown = "data-kind-unknown",
+    /// Data to be written lack their value.
+    DataValueMissing = "data-value-missing",
+    /// An offset or origin would become larger than memory holds. Values: it mm, limit mm.
     OffsetRange = "offset-range",
+    /// Circle cutting without the number of a cutter offset.
+    CircleOffsetMissing = "circle-offset-missing",
+    /// The hole is not larger than the cutter. Values: radius of the hole mm, cutter offset mm.
+    CircleTooSmall = "circle-too-small",
+    /// Circle cutting while tool radius compensation is active.
+    CircleInCompensation = "circle-in-compensation",
+    /// A canned cycle or hole pattern while tool radius compensation is active.
+    CycleInCompensation = "cycle-in-compensation",
     /// A canned cycle lacks its R or Z level.
     CycleLevelMissing = "cycle-level-missing",
     /// A pecking cycle lacks its depth of cut Q.
     CyclePeckMissing = "cycle-peck-missing",
+    /// A boring cycle lacks the shift off the wall.
+    CycleShiftMissing = "cycle-shift-missing",
     /// A hole pattern has no holes (L 0, missing, or negative where no direction belongs to it).
     PatternCount = "pattern-count",
     /// A bolt circle's radius I is zero, negative or missing.

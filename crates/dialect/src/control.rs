@@ -90,6 +90,8 @@ pub struct Roles {
 pub struct Tolerances {
     /// Clearance of pecking cycles.
     pub cycle_clearance: usize,
+    /// Direction in which boring cycles shift the tool by Q: bit 0 towards minus, bit 1 along Y; `None` is +X.
+    pub cycle_shift: Option<usize>,
     /// By how much a radius may be too short to span its arc.
     pub arc_radius: usize,
     /// By how much an arc's end may be off its circle; 0 = no limit.
@@ -103,6 +105,17 @@ pub struct TapeRules {
     pub block_parity: (usize, u8),
     /// The macro characters, each with the index of the parameter that holds its EIA row.
     pub eia_codes: Vec<(u8, usize)>,
+}
+
+/// Parameters that decide feeds and dwells, where the control has them: indices of the parameter rows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct FeedSettings {
+    /// The feeds that F1 to F9 call, mm/min.
+    pub stored: [Option<usize>; 9],
+    /// The fastest cutting feed, mm/min; 0 = no limit.
+    pub limit: Option<usize>,
+    /// Bits: 0 a dwell under feed per revolution counts turns, 1 in whole turns where it has no point.
+    pub dwell: Option<usize>,
 }
 
 /// A control, validated.
@@ -158,6 +171,8 @@ pub struct Control {
     pub roles: Roles,
     /// Which parameters hold which tolerance.
     pub tolerances: Tolerances,
+    /// Which parameters decide feeds and dwells.
+    pub feeds: FeedSettings,
     /// The G codes.
     pub g_codes: Vec<GCode>,
     /// The M codes that the control knows.

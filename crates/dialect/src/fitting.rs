@@ -179,6 +179,11 @@ impl Fitting {
         self.parameters.get(index).copied().unwrap_or(0.0)
     }
 
+    /// The value of a parameter that not every control has; 0 without one.
+    pub fn parameter_if_any(&self, index: Option<usize>) -> f64 {
+        index.map_or(0.0, |index| self.parameter(index))
+    }
+
     /// The value of a parameter by its number or name.
     pub fn parameter_by_name(&self, control: &Control, name: &str) -> Option<f64> {
         let index = control.parameters.iter().position(|row| row.name.eq_ignore_ascii_case(name))?;

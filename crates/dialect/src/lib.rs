@@ -22,16 +22,16 @@ pub use alarm::AlarmRow;
 pub use builtin::{builtin_controls, builtin_files};
 pub use combination::{Written, check_combination};
 pub use control::{
-    Control, Group, GroupCodes, GroupRule, Grouping, MOST_GROUPS, NO_CODE, Roles, TapeRules, Tolerances,
+    Control, FeedSettings, Group, GroupCodes, GroupRule, Grouping, MOST_GROUPS, NO_CODE, Roles, TapeRules, Tolerances,
 };
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use load::{ControlFiles, load_control};
 pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};
 pub use policy::{
-    ArcWithoutCentre, CycleL0Moves, CycleWithMotion, DwellVariable, FeedModeChange, G92System, InchFeedInteger,
-    M01OffOutput, MOver99, OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius,
-    PositionOffsetLetter, ResetPointer, ScalingBoreLevels, ScalingCompany, SkipWithoutSignal, StrokeCheck,
-    UnitChangeOffsets,
+    ArcWithoutCentre, CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleWithMotion, DwellVariable,
+    FeedModeChange, G87Return, G92System, InchFeedInteger, M01OffOutput, MOver99, OneShotCompany, Options, Policies,
+    PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ResetPointer, ScalingBoreLevels,
+    ScalingCompany, SkipWithoutSignal, StrokeCheck, UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,

@@ -10,7 +10,7 @@ mod user_macro;
 use data::{DataError, Document, Table};
 use syntax::{Colon, Grammar, LowerCase, Semicolon};
 
-use crate::control::{Control, Group, GroupRule, Grouping, MOST_GROUPS, Roles, TapeRules, Tolerances};
+use crate::control::{Control, FeedSettings, Group, GroupRule, Grouping, MOST_GROUPS, Roles, TapeRules, Tolerances};
 use crate::meaning::Meaning;
 use crate::row::{Certainty, GCode, Origin, ParameterRow};
 
@@ -246,8 +246,14 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     };
     let tolerances = Tolerances {
         cycle_clearance: parameter_index(files, &parameters, "cycle clearance")?,
+        cycle_shift: parameter_if_any(&parameters, "cycle shift direction"),
         arc_radius: parameter_index(files, &parameters, "arc radius tolerance")?,
         arc_end: parameter_index(files, &parameters, "arc end limit")?,
+    };
+    let feeds = FeedSettings {
+        stored: std::array::from_fn(|index| parameter_if_any(&parameters, &format!("feed F{}", index + 1))),
+        limit: parameter_if_any(&parameters, "cutting feed limit"),
+        dwell: parameter_if_any(&parameters, "dwell in revolutions"),
     };
     Ok(Control {
         name: head.name,
@@ -275,6 +281,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         groups,
         roles,
         tolerances,
+        feeds,
         m_index: index_by(m_codes.iter().map(|row| row.code)),
         m_codes,
         g_codes,
@@ -318,6 +325,10 @@ fn resolve_tape(
         block_parity: (parameter_index(files, parameters, name)?, *bit),
         eia_codes: eia_codes.collect::<Result<_, _>>()?,
     })
+}
+
+fn parameter_if_any(rows: &[ParameterRow], name: &str) -> Option<usize> {
+    rows.iter().position(|row| row.name == name)
 }
 
 /// The names of a group's states as rows of the G table.

@@ -55,6 +55,27 @@ policies! {
         /// It goes to X Y without a hole.
         Yes = "yes",
     }
+    /// How the tool leaves the hole in G87.
+    g87_return: G87Return = "g87-return" {
+        /// At rapid, by itself.
+        Rapid = "rapid",
+        /// The control stops for the operator's hand and goes on at CYCLE START.
+        Manual = "manual",
+    }
+    /// Which way a boring cycle starts the spindle again if the program never started it.
+    cycle_spindle_unknown: CycleSpindleUnknown = "cycle-spindle-unknown" {
+        /// Forward.
+        Forward = "forward",
+        /// Not at all.
+        None = "none",
+    }
+    /// What a canned cycle or hole pattern under G41 or G42 is.
+    cycle_in_compensation: CycleInCompensation = "cycle-in-compensation" {
+        /// Refused.
+        Refuse = "refuse",
+        /// Made at the programmed places, without compensation.
+        Ignore = "ignore",
+    }
     /// What becomes of a displacement by G45 to G48 in the next absolute block.
     position_offset_absolute: PositionOffsetAbsolute = "position-offset-absolute" {
         /// The block goes to its programmed point.
@@ -169,6 +190,9 @@ policies! {
     }
 }
 
+/// Options that change what ordinary words mean: a control that does not list them does without.
+const NEW_MEANINGS: &[&str] = &["one-digit-feed", "input-x10"];
+
 macro_rules! options {
     ($($(#[$doc:meta])* $field:ident = $name:literal,)*) => {
         /// Every option that code asks for, fitted or not. An option that a control does not list is part of it.
@@ -176,7 +200,13 @@ macro_rules! options {
         pub struct Options { $($(#[$doc])* pub $field: bool,)* }
 
         impl Default for Options {
-            fn default() -> Self { Options { $($field: true,)* } }
+            fn default() -> Self {
+                let mut options = Options { $($field: true,)* };
+                for name in NEW_MEANINGS {
+                    options.set(name, false);
+                }
+                options
+            }
         }
 
         impl Options {
@@ -207,4 +237,10 @@ options! {
     program_interrupt = "program-interrupt",
     /// User macros.
     user_macro = "user-macro",
+    /// F0 is rapid, F1 to F9 call stored feeds.
+    one_digit_feed = "one-digit-feed",
+    /// Least increments of program words ten times as large.
+    input_x10 = "input-x10",
+    /// S is the spindle speed in rev/min, not a two-digit code.
+    spindle_rpm = "spindle-rpm",
 }

@@ -12,16 +12,16 @@ const MM: i64 = 1_000_000;
 const DEGREE: i64 = 1_000_000;
 
 impl Control {
-    /// A word as a length in nanometres. Without a point it counts least increments.
+    /// A word as a length in nanometres. Without a point it counts least increments, each `coarse` times its size.
     ///
     /// # Errors
     /// The value lies outside the address's range.
-    pub fn length(&self, address: &Address, number: Decimal, units: UnitSystem) -> Result<i64, Refused> {
+    pub fn length(&self, address: &Address, number: Decimal, units: UnitSystem, coarse: i64) -> Result<i64, Refused> {
         let (increment, unit, range) = match units {
             UnitSystem::Metric => (self.increments[0], MM, address.metric),
             UnitSystem::Inch => (self.increments[1], NM_PER_INCH, address.inch),
         };
-        counts(number, increment, unit, range)
+        counts(number, increment * coarse, unit, range)
     }
 
     /// A word as an angle in microdegrees. Without a point it counts least increments.
@@ -36,10 +36,16 @@ impl Control {
     ///
     /// # Errors
     /// The value lies outside the address's range.
-    pub fn axis_value(&self, address: &Address, number: Decimal, units: UnitSystem) -> Result<i64, Refused> {
+    pub fn axis_value(
+        &self,
+        address: &Address,
+        number: Decimal,
+        units: UnitSystem,
+        coarse: i64,
+    ) -> Result<i64, Refused> {
         match address.kind {
             AddressKind::RotaryAxis => self.angle(address, number),
-            _ => self.length(address, number, units),
+            _ => self.length(address, number, units, coarse),
         }
     }
 
@@ -96,16 +102,31 @@ impl Control {
         feed(number, plain, unit, range)
     }
 
-    /// A feed per revolution in nanometres. Without a point it counts least increments.
+    /// A dwell's P (or X) as turns of the spindle: thousandths (or, `whole`, turns) without a point, turns with one.
     ///
     /// # Errors
     /// The value lies outside the address's range.
-    pub fn feed_per_revolution(&self, address: &Address, number: Decimal, units: UnitSystem) -> Result<f64, Refused> {
+    pub fn dwell_turns(&self, address: &Address, number: Decimal, whole: bool) -> Result<f64, Refused> {
+        let number = if whole { Decimal { point: true, ..number } } else { number };
+        self.dwell_seconds(address, number)
+    }
+
+    /// A feed per revolution in nanometres. Without a point it counts least increments, each `coarse` times its size.
+    ///
+    /// # Errors
+    /// The value lies outside the address's range.
+    pub fn feed_per_revolution(
+        &self,
+        address: &Address,
+        number: Decimal,
+        units: UnitSystem,
+        coarse: i64,
+    ) -> Result<f64, Refused> {
         let (increment, unit, range) = match units {
             UnitSystem::Metric => (self.increments[0], MM, address.feed[2]),
             UnitSystem::Inch => (self.increments[1], NM_PER_INCH, address.feed[3]),
         };
-        feed(number, increment, unit, range)
+        feed(number, increment * coarse, unit, range)
     }
 }
 

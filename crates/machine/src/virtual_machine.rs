@@ -311,6 +311,10 @@ impl Machine for VirtualMachine {
                     None => self.run(shape, timed, 1.0, tell),
                 }
             }
+            Shape::Await(_) => {
+                self.await_codes(place, tell);
+                self.hold = self.time;
+            }
             Shape::Close(_) | Shape::Alarm(_) => {}
         }
         Ok(())

@@ -4,7 +4,7 @@
 //! the movement · 5 what ends the block. A refused block leaves everything as it was: the work is done on copies.
 
 use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
-use dialect::{Control, InchFeedInteger, Meaning};
+use dialect::{Control, Meaning};
 use syntax::{Block, Cursor};
 
 use crate::command::Command;
@@ -12,7 +12,7 @@ use crate::jump::{Calls, Found};
 use crate::operation::{RapidKind, Side};
 use crate::position_offset::PositionOffset;
 use crate::setting::Setting;
-use crate::state::{FeedWord, State};
+use crate::state::State;
 use crate::unknown::letter_bit;
 use crate::user_macro::call::Arguments;
 use crate::word::{Refusal, Words};
@@ -86,7 +86,9 @@ pub(crate) fn read_meaning(
     command: &mut Command,
 ) -> Result<Flow, Refusal> {
     let (word_count, cut) = cut_by_block_delete(block, setting.switches.block_delete);
-    let words = Words::new(block, command.place, word_count);
+    let mut words = Words::new(block, command.place, word_count);
+    // The multiplier counts in program text and in a macro call's arguments, not inside a macro's body.
+    words.coarse = if setting.fitting.options.input_x10 && calls.macro_level() == 0 { 10 } else { 1 };
     check_faults(setting, &words, block, cut)?;
     check_skips(setting, &words, block)?;
     let control = setting.control.as_ref();
@@ -234,19 +236,7 @@ impl Reading<'_> {
             return Ok(());
         }
         let control = self.control();
-        if let (Some(number), Some(address)) = (self.words.number(b'F')?, control.address(b'F')) {
-            let per_revolution =
-                control.in_force(&self.next.groups, control.roles.feed_mode) == Some(Meaning::FeedPerRevolution);
-            let tenths = self.setting.fitting.policies.inch_feed_integer == InchFeedInteger::Tenth;
-            let nanometres = if per_revolution {
-                control.feed_per_revolution(address, number, self.units)
-            } else {
-                control.feed_per_minute(address, number, self.units, tenths)
-            };
-            let nanometres =
-                nanometres.map_err(|(condition, values)| self.words.alarm(condition, b'F').with(values))?;
-            self.next.feed = FeedWord { nanometres, per_revolution };
-        }
+        self.take_feed()?;
         let highest = control.highest_offset;
         for letter in [b'H', b'D'] {
             let number = self.words.count(control, letter)?;
@@ -297,6 +287,8 @@ impl Reading<'_> {
                 self.motion(Meaning::Rapid)
             }
             Meaning::Dwell => self.dwell(),
+            Meaning::WriteData => self.write_data(),
+            Meaning::CircleCutClockwise | Meaning::CircleCutCounterClockwise => self.cut_circle(code),
             Meaning::SetCoordinates => self.set_coordinates(),
             Meaning::Skip => self.skip(),
             Meaning::CentringXy | Meaning::CentringX | Meaning::CentringY => self.centring(code),
@@ -339,8 +331,11 @@ impl Reading<'_> {
         let Some(address) = control.address(facts.letter) else {
             return Err(self.words.alarm(Condition::AddressUnavailable, facts.letter));
         };
-        let value =
-            if facts.rotary { control.angle(address, number) } else { control.length(address, number, self.units) };
+        let value = if facts.rotary {
+            control.angle(address, number)
+        } else {
+            control.length(address, number, self.units, self.words.coarse)
+        };
         match value {
             Ok(value) => Ok((value as f64, number.negative)),
             Err((condition, values)) => Err(self.words.alarm(condition, facts.letter).with(values).on_axis(axis)),
@@ -358,8 +353,10 @@ impl Reading<'_> {
 
     /// Notes where the axis words stand and what is known now.
     fn finish(&mut self) {
-        // The words of a dwell and of G92 lead nowhere.
-        let places = !self.words_taken && !matches!(self.one_shot, Some((Meaning::Dwell | Meaning::SetCoordinates, _)));
+        // The words of a dwell, of G10 and of G92 lead nowhere.
+        let leads_nowhere =
+            matches!(self.one_shot, Some((Meaning::Dwell | Meaning::WriteData | Meaning::SetCoordinates, _)));
+        let places = !self.words_taken && !leads_nowhere;
         let mut absolute = AxisSet::NONE;
         for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
             let word = self.words.word(facts.letter);
@@ -389,7 +386,12 @@ impl Reading<'_> {
             return;
         }
         let in_base = self.control().in_force(&self.next.groups, roles.work) == Some(Meaning::BaseSystem);
-        let astray = if in_base { unknown.origins } else { AxisSet::NONE };
+        let mut astray = if in_base { unknown.origins } else { AxisSet::NONE };
+        if unknown.memory {
+            let offset = self.control().in_force(&self.next.groups, roles.length).and_then(Meaning::length_offset);
+            let by_length = self.setting.length_axis.filter(|_| offset != Some(0.0)).map(AxisSet::only);
+            astray = astray.or(if in_base { by_length.unwrap_or_default() } else { self.setting.facts.all() });
+        }
         let rests = [roles.distance, roles.work, roles.units, roles.cycle, roles.scaling.unwrap_or(roles.work)];
         let named = self.now_known.or(absolute);
         if rests.iter().any(|&group| unknown.group(group)) {

@@ -8,9 +8,13 @@ use dialect::{MMeaning, MOver99};
 
 use crate::block::{Flow, Reading};
 use crate::command::{Finish, MOST_CODES};
+use crate::cycle::Spindle;
 use crate::operation::{CodeLine, CodeOut, EndKind};
 use crate::state::Corner;
 use crate::word::Refusal;
+
+/// The highest of the two-digit codes that stand for spindle speeds.
+const HIGHEST_SPEED_CODE: u32 = 99;
 
 impl Reading<'_> {
     /// Takes the block's codes; returns where the program goes on.
@@ -21,8 +25,13 @@ impl Reading<'_> {
         let control = self.control();
         let digits = self.setting.facts.codes.digits;
         if let Some(speed) = self.words.count(control, b'S')? {
+            let coded = !self.setting.fitting.options.spindle_rpm;
+            if coded && speed > HIGHEST_SPEED_CODE {
+                let values = [f64::from(speed), 0.0, f64::from(HIGHEST_SPEED_CODE)];
+                return Err(self.words.alarm(Condition::ValueOutOfRange, b'S').with(values).into());
+            }
             self.next.spindle = speed;
-            self.send(CodeLine::S, b'S', speed, digits[1], false)?;
+            self.send(CodeLine::S, b'S', speed, if coded { 2 } else { digits[1] }, false)?;
         }
         if let Some(tool) = self.words.count(control, b'T')? {
             self.next.tool = tool;
@@ -126,6 +135,9 @@ impl Reading<'_> {
         } else {
             code
         };
+        if let Some(direction) = Spindle::direction_of(sent, &self.setting.control.cycle_codes) {
+            self.next.spindle_direction = Some(direction);
+        }
         self.push_code(CodeLine::M, sent, lines, after, word)
     }
 

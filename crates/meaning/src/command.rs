@@ -5,7 +5,9 @@ use dialect::GroupCodes;
 use syntax::{Cursor, Extent};
 
 use crate::centring::Centring;
+use crate::circle_cutting::CircleCut;
 use crate::cycle::Holes;
+use crate::data_setting::DataWrite;
 use crate::operation::{CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
 use crate::program::Frame;
 use crate::state::State;
@@ -54,6 +56,7 @@ pub(crate) enum Body {
     Dwell(Dwell),
     Set(SetValue, Option<SetValue>),
     Holes(Holes),
+    Circle(CircleCut),
     Alarm(Alarm),
     /// The program begins.
     Start(GroupCodes),
@@ -117,6 +120,8 @@ pub struct Command {
     /// Which of the codes is that of M01, if one is.
     pub(crate) optional_code: Option<u8>,
     pub(crate) body: Body,
+    /// What it writes into memory; already written when it stands in the queue.
+    pub(crate) write: Option<DataWrite>,
     /// What follows.
     pub finish: Finish,
     /// The next block must not be read before this one is done.

@@ -3,7 +3,16 @@
 //! Comes in: a block's words and the data that earlier blocks stored. Goes out: [`Holes`], which the expander works
 //! off step by step, so that a deep hole of a hundred thousand pecks needs no memory.
 
+mod back_bore;
+mod bore_dwell_feed_out;
+mod bore_dwell_manual_out;
+mod bore_feed_out;
+mod bore_manual_out;
+mod bore_stop_rapid_out;
 mod drill;
+mod fine_bore;
+mod high_speed_peck;
+mod left_tap;
 mod peck;
 mod reading;
 mod spot;
@@ -27,8 +36,10 @@ pub struct CycleData {
     pub r: Option<f64>,
     /// The bottom.
     pub bottom: Option<f64>,
-    /// Depth of cut Q.
+    /// Depth of cut or shift Q.
     pub peck: f64,
+    /// Shift I, J of boring cycles, unless a later block has written Q alone.
+    pub shift: Option<[f64; 2]>,
     /// Dwell P, seconds.
     pub dwell: f64,
 }
@@ -50,6 +61,13 @@ pub(crate) struct Holes {
     pub peck: f64,
     pub clearance: f64,
     pub dwell: f64,
+    /// By how much boring cycles shift the tool off the wall, along these axes.
+    pub shift: [f64; 2],
+    pub shift_axes: [u8; 2],
+    /// Which way the spindle turns after it has been stopped or oriented; `None` leaves it as it is.
+    pub restart: Option<Spindle>,
+    /// The tool leaves the hole by the operator's hand.
+    pub by_hand: bool,
     pub feed: Feed,
     pub rapid: RapidKind,
 }
@@ -70,11 +88,24 @@ impl Cursor {
     }
 }
 
-/// A spindle command of a cycle.
+/// A spindle command of a cycle, in the order in which the control's table has the codes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Spindle {
+pub enum Spindle {
+    /// It turns clockwise.
     Forward,
+    /// It turns counter-clockwise.
     Reverse,
+    /// It stops anywhere.
+    Stop,
+    /// It stops at its fixed angle.
+    Orient,
+}
+
+impl Spindle {
+    /// The direction in which an M code makes the spindle turn, if it does.
+    pub(crate) fn direction_of(code: u32, codes: &[u32; 4]) -> Option<Spindle> {
+        [Spindle::Forward, Spindle::Reverse].into_iter().find(|&spindle| codes[spindle as usize] == code)
+    }
 }
 
 /// One step in a hole.
@@ -90,28 +121,72 @@ pub(crate) enum Step {
     Dwell(f64),
     /// Send a spindle code and wait for it.
     Spindle(Spindle),
+    /// Start the spindle as it turned before.
+    Restart,
+    /// Rapid aside, off the wall of the hole.
+    Aside,
+    /// Rapid back over the hole.
+    Back,
+    /// Stop where the tool leaves by the operator's hand; CYCLE START goes on.
+    ByHand,
     /// The hole is done.
     Done,
 }
 
 type StepFn = fn(&Holes, &mut Cursor) -> Step;
 
-/// The cycles that are built: a new one is a file and a line here.
+/// The cycles: a new one is a file and a line here.
 const CYCLES: &[(Meaning, StepFn)] = &[
     (Meaning::Drill, drill::step),
-    (Meaning::Spot, spot::step),
     (Meaning::Peck, peck::step),
+    (Meaning::Spot, spot::step),
+    (Meaning::HighSpeedPeck, high_speed_peck::step),
     (Meaning::Tap, tap::step),
+    (Meaning::LeftTap, left_tap::step),
+    (Meaning::FineBore, fine_bore::step),
+    (Meaning::BackBore, back_bore::step),
+    (Meaning::BoreFeedOut, bore_feed_out::step),
+    (Meaning::BoreStopRapidOut, bore_stop_rapid_out::step),
+    (Meaning::BoreManualOut, bore_manual_out::step),
+    (Meaning::BoreDwellManualOut, bore_dwell_manual_out::step),
+    (Meaning::BoreDwellFeedOut, bore_dwell_feed_out::step),
 ];
 
-/// The steps of a cycle, if it is built.
-pub(crate) fn steps_of(cycle: Meaning) -> Option<StepFn> {
-    CYCLES.iter().find(|(meaning, _)| *meaning == cycle).map(|&(_, step)| step)
+/// The next step in a hole. A code that is no cycle has none.
+pub(crate) fn next_step(cycle: Meaning, holes: &Holes, at: &mut Cursor) -> Step {
+    CYCLES.iter().find(|(meaning, _)| *meaning == cycle).map_or(Step::Done, |(_, step)| step(holes, at))
+}
+
+/// True if the tool goes to the R level before the cycle's own steps; back boring goes there by itself, beside the hole.
+pub(crate) fn begins_at_r(cycle: Meaning) -> bool {
+    cycle != Meaning::BackBore
 }
 
 /// True if the cycle cuts in pecks of Q.
 pub(crate) fn needs_peck(cycle: Meaning) -> bool {
     matches!(cycle, Meaning::Peck | Meaning::HighSpeedPeck)
+}
+
+/// True if the cycle shifts the tool off the wall.
+pub(crate) fn needs_shift(cycle: Meaning) -> bool {
+    matches!(cycle, Meaning::FineBore | Meaning::BackBore)
+}
+
+/// Takes the block's I and J into the cycle's data. The shift written last counts: I and J, or Q without them.
+pub(crate) fn store_shift(
+    words: &Words,
+    control: &dialect::Control,
+    units: UnitSystem,
+    data: &mut CycleData,
+) -> Result<(), base::Alarm> {
+    let (i, j) = (words.length(control, b'I', units)?, words.length(control, b'J', units)?);
+    if i.is_some() || j.is_some() {
+        let [old_i, old_j] = data.shift.unwrap_or_default();
+        data.shift = Some([i.unwrap_or(old_i), j.unwrap_or(old_j)]);
+    } else if words.has(b'Q') {
+        data.shift = None;
+    }
+    Ok(())
 }
 
 /// Takes the block's R, Z, Q and P (if `takes_dwell`) into the cycle's data.
@@ -146,4 +221,44 @@ pub(crate) fn store(
         data.dwell = seconds;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_cycle_has_its_steps_and_comes_to_an_end() {
+        let places = Places::Row { first: [0.0; base::AXES], step: [0.0; base::AXES], count: 1 };
+        let holes = Holes {
+            cycle: None,
+            places,
+            approach: [0.0; base::AXES],
+            axis: 2,
+            r: 2e6,
+            bottom: -5e6,
+            end: 10e6,
+            peck: 3e6,
+            clearance: 1e6,
+            dwell: 0.0,
+            shift: [1e6, 0.0],
+            shift_axes: [0, 1],
+            restart: None,
+            by_hand: false,
+            feed: Feed { mm_per_min: 100.0, exact_stop: false, tapping: false },
+            rapid: RapidKind::Checked,
+        };
+        for &(name, cycle) in Meaning::TABLE.iter().filter(|(_, meaning)| meaning.is_cycle()) {
+            let (mut at, mut steps, mut level) = (Cursor::default(), 0, holes.end);
+            loop {
+                match next_step(cycle, &holes, &mut at) {
+                    Step::Done => break,
+                    Step::Rapid(to) | Step::Feed(to) | Step::Tap(to) => level = to,
+                    _ => {}
+                }
+                steps += 1;
+            }
+            assert!((2..=12).contains(&steps) && level == holes.end, "{name}: {steps} steps, left at {level}");
+        }
+    }
 }

@@ -4,8 +4,8 @@ use base::{AXES, AxisSet, Point};
 
 use crate::centring::Centring;
 use crate::command::{Body, Command, Finish};
-use crate::cycle::{Cursor, Holes, Spindle, Step, steps_of};
-use crate::operation::{Act, ArcMove, Close, CodeLine, CodeOut, Dwell, Feed, Operation, RapidKind};
+use crate::cycle::{Cursor, Holes, Spindle, Step, begins_at_r, next_step};
+use crate::operation::{Act, ArcMove, Close, CodeLine, CodeOut, Dwell, Feed, Operation, RapidKind, StopKind};
 use crate::setting::to_mm;
 
 /// Which part of the block is next.
@@ -44,8 +44,8 @@ pub(crate) struct Surroundings {
     pub optional_stop: bool,
     /// M01 goes out though its switch is off.
     pub sends_m01: bool,
-    /// M codes for spindle forward and reverse.
-    pub spindle_codes: [u32; 2],
+    /// M codes of cycles: spindle forward, reverse, stop, orient.
+    pub spindle_codes: [u32; 4],
     pub m_digits: u8,
 }
 
@@ -168,6 +168,7 @@ impl Expansion {
             }),
             (Body::Checked { to, .. }, 0) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),
             (Body::Checked { alarm: Some(alarm), .. }, 1) => Some(Act::Alarm(*alarm)),
+            (Body::Circle(cut), phase) => cut.piece(phase),
             (Body::Via { via, .. }, 0) => {
                 out.stop_point = true;
                 Some(Act::Rapid { to: mm(via), kind: RapidKind::Checked })
@@ -218,59 +219,56 @@ impl Expansion {
 
     /// Phases of a hole: 0 the approach from one side, 1 the position, 2 the R level, 3 the cycle's own steps.
     fn next_in_hole(&mut self, holes: &Holes, around: &Surroundings, stop_point: &mut bool) -> Option<Act> {
-        let axis = usize::from(holes.axis);
-        loop {
-            if self.hole >= holes.places.count() {
-                return None;
-            }
+        let count = holes.places.count();
+        while self.hole < count {
             let phase = self.phase;
             // From the third on the cycle's own cursor counts, however many pecks a hole has.
             self.phase = (phase + 1).min(3);
-            match phase {
-                0 | 1 => {
-                    let mut place = holes.places.at(self.hole);
-                    if holes.cycle.is_some() {
-                        place[axis] = self.position[axis];
-                    }
-                    if phase == 0 {
-                        match approach(&self.position, &place, &holes.approach) {
-                            Some(from_side) => place = from_side,
-                            None => continue,
-                        }
-                    } else {
-                        *stop_point = true;
-                    }
-                    self.position = place;
-                    return Some(self.rapid(holes.rapid, around));
+            let act = match (phase, holes.cycle) {
+                (0 | 1, _) => {
+                    // A place without a hole ends the block if it is the last.
+                    *stop_point = phase == 1 && (holes.cycle.is_some() || self.hole + 1 < count);
+                    self.place_move(phase == 0, holes, around)
                 }
-                2 if holes.cycle.is_some() => {
-                    self.position[axis] = holes.r;
+                (2, Some(cycle)) if begins_at_r(cycle) => {
+                    self.position[usize::from(holes.axis)] = holes.r;
                     *stop_point = true;
-                    return Some(self.rapid(holes.rapid, around));
+                    Some(self.rapid(holes.rapid, around))
                 }
-                _ => {
-                    let step = holes.cycle.and_then(steps_of).map_or(Step::Done, |step| step(holes, &mut self.cursor));
-                    if step == Step::Done {
+                (2, Some(_)) => None,
+                (_, cycle) => {
+                    let step = cycle.map_or(Step::Done, |cycle| next_step(cycle, holes, &mut self.cursor));
+                    if step != Step::Done {
+                        self.step(step, holes, around)
+                    } else {
                         self.hole += 1;
                         self.phase = 0;
                         self.cursor = Cursor::default();
-                        continue;
-                    }
-                    *stop_point = self.is_last_step(holes);
-                    match self.step(step, holes, around) {
-                        Some(act) => return Some(act),
-                        None => continue,
+                        // The machine has answered before the next hole is begun; the last one ends with its block.
+                        *stop_point = cycle.is_some() && self.hole < count;
+                        stop_point.then_some(Act::Await(None))
                     }
                 }
+            };
+            if act.is_some() {
+                return act;
             }
         }
+        None
     }
 
-    /// True if this hole is done and another follows: the block's own end is a stop point anyway.
-    fn is_last_step(&self, holes: &Holes) -> bool {
-        let mut ahead = self.cursor;
-        let next = holes.cycle.and_then(steps_of).map_or(Step::Done, |step| step(holes, &mut ahead));
-        next == Step::Done && self.hole + 1 < holes.places.count()
+    /// The move to the hole's place, or before it to where the approach from one side begins.
+    fn place_move(&mut self, approaching: bool, holes: &Holes, around: &Surroundings) -> Option<Act> {
+        let axis = usize::from(holes.axis);
+        let mut place = holes.places.at(self.hole);
+        if holes.cycle.is_some() {
+            place[axis] = self.position[axis];
+        }
+        if approaching {
+            place = approach(&self.position, &place, &holes.approach)?;
+        }
+        self.position = place;
+        Some(self.rapid(holes.rapid, around))
     }
 
     fn rapid(&self, kind: RapidKind, around: &Surroundings) -> Act {
@@ -290,13 +288,30 @@ impl Expansion {
                 Some(Act::Line { to: to_mm(&self.position, around.axes), feed })
             }
             Step::Dwell(seconds) => (seconds > 0.0).then_some(Act::Dwell(Dwell::Seconds(seconds))),
-            Step::Spindle(spindle) => {
-                let code = around.spindle_codes[usize::from(spindle == Spindle::Reverse)];
-                Some(Act::Code(CodeOut { line: CodeLine::M, code, digits: around.m_digits, after_motion: true }))
+            Step::Spindle(spindle) => Some(spindle_code(spindle, around)),
+            Step::Restart => holes.restart.map(|spindle| spindle_code(spindle, around)),
+            Step::Aside => {
+                for (axis, shift) in holes.shift_axes.into_iter().zip(holes.shift) {
+                    self.position[usize::from(axis)] += shift;
+                }
+                Some(self.rapid(holes.rapid, around))
             }
+            Step::Back => {
+                let place = holes.places.at(self.hole);
+                for axis in holes.shift_axes.map(usize::from) {
+                    self.position[axis] = place[axis];
+                }
+                Some(self.rapid(holes.rapid, around))
+            }
+            Step::ByHand => holes.by_hand.then_some(Act::Await(Some(StopKind::Cycle))),
             Step::Done => None,
         }
     }
+}
+
+fn spindle_code(spindle: Spindle, around: &Surroundings) -> Act {
+    let code = around.spindle_codes[spindle as usize];
+    Act::Code(CodeOut { line: CodeLine::M, code, digits: around.m_digits, after_motion: true })
 }
 
 /// Where a move from one side goes first, if any of its axes has such a side.

@@ -82,11 +82,7 @@ impl Reading<'_> {
     pub fn refuse_unbuilt_modes(&self) -> Result<(), Alarm> {
         let control = self.setting.control.as_ref();
         for (index, _) in control.groups.iter().enumerate() {
-            let unbuilt = match control.in_force(&self.next.groups, index) {
-                Some(Meaning::RotationOn) => true,
-                Some(code) if code.is_cycle() => crate::cycle::steps_of(code).is_none(),
-                _ => false,
-            };
+            let unbuilt = control.in_force(&self.next.groups, index) == Some(Meaning::RotationOn);
             if unbuilt && self.groups_written & (1 << index) != 0 {
                 let row = self.next.groups.0[index];
                 let code = control.g_codes.get(usize::from(row)).map_or(0, |code| code.code);

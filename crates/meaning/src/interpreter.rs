@@ -264,6 +264,8 @@ impl Interpreter {
                 self.reader.end();
             }
         }
+        // The manual part of a cycle.
+        self.waits_for_start |= matches!(self.operation.act, Act::Await(Some(_)));
         Some(Front::Operation)
     }
 
@@ -273,7 +275,7 @@ impl Interpreter {
             axes: setting.facts.axes.len(),
             optional_stop: setting.switches.optional_stop,
             sends_m01: setting.fitting.policies.m01_off_output == M01OffOutput::Code,
-            spindle_codes: [setting.control.cycle_codes[0], setting.control.cycle_codes[1]],
+            spindle_codes: setting.control.cycle_codes,
             m_digits: setting.facts.codes.digits[0],
         }
     }

@@ -10,13 +10,16 @@
 mod arc;
 mod block;
 mod centring;
+mod circle_cutting;
 mod codes;
 mod command;
 mod coordinate;
 mod cycle;
+mod data_setting;
 mod dwell;
 mod expand;
 mod facts;
+mod feed;
 mod g_codes;
 mod interpreter;
 mod interrupt;

@@ -6,7 +6,7 @@ use dialect::{ArcWithoutCentre, Meaning, PositionOffsetAbsolute, PositionOffsetA
 use crate::arc::{ArcWords, solve};
 use crate::block::Reading;
 use crate::command::Body;
-use crate::operation::{Feed, Plane, RapidKind, Side};
+use crate::operation::{Plane, RapidKind, Side};
 use crate::position_offset::PositionOffset;
 
 impl Reading<'_> {
@@ -76,7 +76,7 @@ impl Reading<'_> {
                 self.now_known = self.now_known.or(moved);
                 match motion {
                     Meaning::Linear => {
-                        let feed = self.feed()?;
+                        let feed = self.feed_to(&to)?;
                         self.command.body = Body::Line { to, feed };
                     }
                     Meaning::OneSidedPositioning => self.one_sided(to, moved),
@@ -114,7 +114,7 @@ impl Reading<'_> {
         }
         let roles = self.setting.control.roles;
         self.command.body = match self.setting.control.in_force(&self.next.groups, roles.motion) {
-            Some(Meaning::Linear) => Body::Line { to, feed: self.feed()? },
+            Some(Meaning::Linear) => Body::Line { to, feed: self.feed_to(&to)? },
             _ => Body::Rapid { to, kind: RapidKind::Checked },
         };
         self.now_known = self.now_known.or(axes);
@@ -145,26 +145,6 @@ impl Reading<'_> {
         };
         self.position_offset = Some(PositionOffset { factor, offset });
         Ok(())
-    }
-
-    /// The feed of a cutting move.
-    pub fn feed(&self) -> Result<Feed, Alarm> {
-        let roles = self.setting.control.roles;
-        let per_revolution =
-            self.setting.control.in_force(&self.next.groups, roles.feed_mode) == Some(Meaning::FeedPerRevolution);
-        let keeps = self.setting.fitting.policies.feed_mode_change == dialect::FeedModeChange::KeepsNumber;
-        let feed = self.next.feed;
-        if feed.nanometres <= 0.0 || (feed.per_revolution != per_revolution && !keeps) {
-            return Err(self.motion_alarm(Condition::FeedMissing));
-        }
-        let mut mm = feed.nanometres / 1e6;
-        if per_revolution {
-            if self.next.spindle == 0 {
-                return Err(self.motion_alarm(Condition::SpindleSpeedMissing));
-            }
-            mm *= f64::from(self.next.spindle);
-        }
-        Ok(Feed { mm_per_min: mm, exact_stop: self.exact_stop, tapping: false })
     }
 
     /// The plane in force.

@@ -59,7 +59,7 @@ pub enum RapidKind {
 /// The feed of a cutting move.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Feed {
-    /// Along the path (of an arc: along the arc in its plane), mm/min, as commanded.
+    /// Along the path (of an arc: along the arc in its plane), mm/min, as commanded; infinite is the rapid rate.
     pub mm_per_min: f64,
     /// True if the block ends with a stop and an in-position check (G09, G61).
     pub exact_stop: bool,
@@ -89,8 +89,23 @@ pub struct ArcMove {
 pub enum Dwell {
     /// So many seconds.
     Seconds(f64),
-    /// So many turns of the spindle.
-    Revolutions(f64),
+    /// So many turns of the spindle, which is to turn at this speed.
+    Revolutions {
+        /// How many.
+        turns: f64,
+        /// rev/min, above zero.
+        rpm: f64,
+    },
+}
+
+impl Dwell {
+    /// How long it lasts, s.
+    pub fn seconds(self) -> f64 {
+        match self {
+            Dwell::Seconds(seconds) => seconds,
+            Dwell::Revolutions { turns, rpm } => turns * 60.0 / rpm,
+        }
+    }
 }
 
 /// The lines that carry a code to the machine.
@@ -229,6 +244,8 @@ pub enum Act {
     Dwell(Dwell),
     /// A value was written.
     Set(SetValue),
+    /// The machine answers every code that is out before anything else is done; then a stop, if there is one.
+    Await(Option<StopKind>),
     /// The block is done; what follows it.
     Close(Close),
     /// The block is refused.

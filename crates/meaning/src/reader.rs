@@ -443,6 +443,8 @@ impl Reader {
                 self.begin(self.block.next, command);
                 match self.follow(flow, command) {
                     Ok(()) => {
+                        let memory = &mut self.setting.memory;
+                        self.next.memory_mark ^= command.write.map_or(0, |write| memory.write(write));
                         self.state = self.next;
                         command.after = self.next;
                         self.count(command);
@@ -484,6 +486,7 @@ impl Reader {
         command.code_count = 0;
         command.optional_code = None;
         command.body = Body::Nothing;
+        command.write = None;
         command.finish = Finish::Next;
         command.stops_reading = false;
         command.absolute = AxisSet::NONE;
@@ -686,6 +689,7 @@ pub(crate) fn empty_command(state: &State) -> Command {
         code_count: 0,
         optional_code: None,
         body: Body::Nothing,
+        write: None,
         finish: Finish::Next,
         stops_reading: false,
         side: Side::Off,

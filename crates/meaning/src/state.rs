@@ -5,7 +5,7 @@
 use base::{AXES, AxisSet, Point};
 use dialect::GroupCodes;
 
-use crate::cycle::CycleData;
+use crate::cycle::{CycleData, Spindle};
 use crate::interrupt::Interrupt;
 use crate::reference_point::ReferenceData;
 use crate::stroke::StrokeBox;
@@ -19,6 +19,8 @@ pub struct FeedWord {
     pub nanometres: f64,
     /// True if it was programmed per revolution.
     pub per_revolution: bool,
+    /// True if it was programmed in inches: of a rotary axis alone the number counts degrees all the same.
+    pub inch: bool,
 }
 
 /// How tool radius compensation goes round outside corners.
@@ -89,6 +91,10 @@ pub struct State {
     pub stroke: StrokeBox,
     /// Scale and mirror.
     pub transform: Transform,
+    /// Which way the spindle was last told to turn, by the program or by a cycle; a stop does not change it.
+    pub spindle_direction: Option<Spindle>,
+    /// Changes with every value that the program writes into memory, and comes back when the value does.
+    pub memory_mark: u64,
     /// What cannot be known after a refused block.
     pub unknown: Unknown,
 }
@@ -123,6 +129,8 @@ impl State {
             corner: Corner::NotProgrammed,
             stroke: StrokeBox::NONE,
             transform: Transform::default(),
+            spindle_direction: None,
+            memory_mark: 0,
             unknown: Unknown::default(),
         }
     }

@@ -17,12 +17,14 @@ pub struct Unknown {
     pub groups: u32,
     /// Words whose value is unknown, one bit a letter.
     pub words: u32,
+    /// Some offset or origin in memory is unknown.
+    pub memory: bool,
 }
 
 impl Unknown {
     /// True if everything is known.
     pub const fn is_nothing(self) -> bool {
-        self.axes.is_empty() && self.origins.is_empty() && self.groups == 0 && self.words == 0
+        self.axes.is_empty() && self.origins.is_empty() && self.groups == 0 && self.words == 0 && !self.memory
     }
 
     /// True if the code of this group is unknown.
@@ -42,7 +44,7 @@ impl Unknown {
         }
         let any = |groups: &[usize]| groups.iter().any(|&group| self.group(group));
         match condition {
-            Condition::FeedMissing | Condition::SpindleSpeedMissing => {
+            Condition::FeedMissing | Condition::SpindleSpeedMissing | Condition::SpindleSpeedCoded => {
                 any(&[roles.motion, roles.feed_mode, roles.cycle]) || self.word(b'F') || self.word(b'S')
             }
             Condition::ArcWithoutCentre => any(&[roles.motion, roles.cycle]),
@@ -57,10 +59,20 @@ impl Unknown {
                 axis.is_some_and(|axis| self.axes.has(usize::from(axis)))
             }
             Condition::LengthOffsetWithArc | Condition::OneShotWithMotion => self.group(roles.motion),
-            Condition::PositionOffsetInCycle | Condition::CycleLevelMissing | Condition::CyclePeckMissing => {
-                self.group(roles.cycle) || self.word(b'R') || self.word(b'Z') || self.word(b'Q')
+            Condition::PositionOffsetInCycle
+            | Condition::CycleLevelMissing
+            | Condition::CyclePeckMissing
+            | Condition::CycleShiftMissing => {
+                let data = b"RZQIJ".iter().any(|&letter| self.word(letter));
+                data || self.group(roles.cycle)
             }
-            Condition::PositionOffsetInCompensation => self.group(roles.compensation),
+            Condition::PositionOffsetInCompensation
+            | Condition::CycleInCompensation
+            | Condition::CircleInCompensation => self.group(roles.compensation),
+            Condition::CircleOffsetMissing => self.word(b'D'),
+            Condition::CircleTooSmall => self.word(b'D') || self.group(roles.units) || self.memory,
+            Condition::OffsetRange => any(&[roles.units, roles.distance]) || self.memory,
+            Condition::StoredFeedMissing => self.group(roles.feed_mode),
             Condition::ValueOutOfRange => self.group(roles.units),
             Condition::TravelExceeded => {
                 axis.is_some_and(|axis| self.axes.has(usize::from(axis)))

@@ -26,6 +26,8 @@ impl From<Alarm> for Refusal {
 pub(crate) struct Words<'b> {
     pub block: &'b Block,
     pub place: Place,
+    /// How many least increments a plain length counts in units of one.
+    pub coarse: i64,
     by_letter: [u8; 26],
     present: u32,
 }
@@ -39,7 +41,7 @@ impl<'b> Words<'b> {
             by_letter[usize::from(word.letter - b'A') % 26] = index as u8;
             present |= crate::unknown::letter_bit(word.letter);
         }
-        Words { block, place, by_letter, present }
+        Words { block, place, coarse: 1, by_letter, present }
     }
 
     /// True if a word of this letter stands in the block.
@@ -113,7 +115,7 @@ impl<'b> Words<'b> {
 
     /// A word as a length in nanometres.
     pub fn length(&self, control: &Control, letter: u8, units: UnitSystem) -> Result<Option<f64>, Alarm> {
-        self.read(control, letter, |address, number| control.length(address, number, units))
+        self.read(control, letter, |address, number| control.length(address, number, units, self.coarse))
             .map(|n| n.map(|n| n as f64))
     }
 

@@ -1,7 +1,7 @@
 //! The stage: one shape in, the same shape out with its duration.
 
 use base::{AXES, Point, Seconds};
-use meaning::{Answer, Dwell, Feed, Pull, StaleBarrier};
+use meaning::{Answer, Feed, Pull, StaleBarrier};
 use path::{Arc, Path, Shape, Shaped};
 
 use crate::limits::Limits;
@@ -58,7 +58,7 @@ impl Motion {
             Shape::Rapid { from, to, .. } => self.rapid(from, to),
             Shape::Line { from, to, feed } => self.line(from, to, feed),
             Shape::Arc { arc, feed } => self.arc(arc, feed),
-            Shape::Dwell(Dwell::Seconds(seconds)) => (*seconds, 0.0, 0.0),
+            Shape::Dwell(dwell) => (dwell.seconds(), 0.0, 0.0),
             _ => (0.0, 0.0, 0.0),
         };
         Timed { shaped, duration: Seconds(seconds), length, feed }
@@ -83,9 +83,12 @@ impl Motion {
 
     fn line(&self, from: &Point, to: &Point, feed: &Feed) -> (f64, f64, f64) {
         let length = distance(from, to, self.limits.count);
-        let (speed, acceleration) = self.along(from, to, length, |axis| axis.max_feed);
-        let speed = speed.min(feed.mm_per_min / 60.0);
-        (Trapezoid::new(length, speed, acceleration).seconds(), length, feed.mm_per_min)
+        let at_rapid = feed.mm_per_min == f64::INFINITY;
+        let (speed, acceleration) =
+            self.along(from, to, length, |axis| if at_rapid { axis.rapid } else { axis.max_feed });
+        let commanded = if at_rapid { speed * 60.0 } else { feed.mm_per_min };
+        let speed = speed.min(commanded / 60.0);
+        (Trapezoid::new(length, speed, acceleration).seconds(), length, commanded)
     }
 
     /// The highest speed and acceleration along a straight way that no axis is asked too much by.
@@ -114,19 +117,23 @@ impl Motion {
         let given = u.acceleration.min(v.acceleration);
         let radius = arc.radius[0].min(arc.radius[1]).max(1e-6);
         let centripetal = (given * radius * std::f64::consts::FRAC_1_SQRT_2).sqrt();
+        let at_rapid = feed.mm_per_min == f64::INFINITY;
+        let rate = |limits: &crate::AxisLimits| if at_rapid { limits.rapid } else { limits.max_feed };
+        let most = rate(u).min(rate(v));
+        let commanded = if at_rapid { most * 60.0 } else { feed.mm_per_min };
         // Speeds in the plane; the axes beside it keep step.
-        let mut speed = (feed.mm_per_min / 60.0).min(u.max_feed.min(v.max_feed)).min(centripetal);
+        let mut speed = (commanded / 60.0).min(most).min(centripetal);
         let towards_centre = speed * speed / radius;
         let mut acceleration = (given * given - towards_centre * towards_centre).max(0.0).sqrt();
         for axis in (0..self.limits.count).filter(|&axis| !arc.axes.contains(&(axis as u8))) {
             let way = (arc.to[axis] - arc.from[axis]).abs();
             if way > 0.0 {
-                speed = speed.min(self.limits.axes[axis].max_feed * plane_length / way);
+                speed = speed.min(rate(&self.limits.axes[axis]) * plane_length / way);
                 acceleration = acceleration.min(self.limits.axes[axis].acceleration * plane_length / way);
             }
         }
         let seconds = Trapezoid::new(plane_length, speed, acceleration).seconds();
-        (seconds, length, feed.mm_per_min * steepness)
+        (seconds, length, commanded * steepness)
     }
 }
 

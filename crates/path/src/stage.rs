@@ -2,7 +2,7 @@
 
 use base::{AXES, Alarm, AxisSet, Place, Point};
 use meaning::{
-    Act, Answer, Close, CodeOut, Dwell, Feed, Interpreter, Operation, Pull, RapidKind, SetValue, StaleBarrier,
+    Act, Answer, Close, CodeOut, Dwell, Feed, Interpreter, Operation, Pull, RapidKind, SetValue, StaleBarrier, StopKind,
 };
 
 use crate::arc::Arc;
@@ -44,6 +44,8 @@ pub enum Shape {
     Dwell(Dwell),
     /// A value was written.
     Set(SetValue),
+    /// The machine answers every code that is out; then a stop, if there is one.
+    Await(Option<StopKind>),
     /// The block is done.
     Close(Close),
     /// The block is refused.
@@ -180,6 +182,10 @@ fn shape(
         }
         Act::Set(value) => {
             shaped.shape = Shape::Set(value);
+            from
+        }
+        Act::Await(stop) => {
+            shaped.shape = Shape::Await(stop);
             from
         }
         Act::Close(close) => {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use base::{AXES, Point};
 use machine::{Event, EventKind};
-use meaning::{CodeLine, Dwell, EndKind};
+use meaning::{CodeLine, EndKind};
 
 use crate::json::JsonLine;
 use crate::trace::end_name;
@@ -125,7 +125,7 @@ impl Summary {
                 self.see(&low);
                 self.see(&high);
             }
-            EventKind::Dwell(Dwell::Seconds(seconds)) => self.dwell += seconds,
+            EventKind::Dwell(dwell) => self.dwell += dwell.seconds(),
             EventKind::Waited(duration) => self.waiting += duration.0,
             EventKind::End { kind, .. } => self.end = Some(*kind),
             EventKind::BlockDone if event.place.block.len > 0 => self.blocks += 1,

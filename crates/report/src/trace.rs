@@ -121,8 +121,8 @@ impl<'c> Tracer<'c> {
             EventKind::Dwell(Dwell::Seconds(seconds)) => {
                 line.number("seconds", *seconds);
             }
-            EventKind::Dwell(Dwell::Revolutions(revolutions)) => {
-                line.number("revolutions", *revolutions);
+            EventKind::Dwell(Dwell::Revolutions { turns, .. }) => {
+                line.number("revolutions", *turns);
             }
             EventKind::Code(code) => self.code(*code, line),
             EventKind::Finished(code) => {

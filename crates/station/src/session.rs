@@ -395,6 +395,7 @@ impl<L: Library> Session<L> {
         self.begun = Some(self.motion.upstream.current().block);
         let shaped = self.motion.upstream.current();
         let (place, stop_point) = (shaped.place, shaped.stop_point);
+        let stop = if let Shape::Await(stop) = shaped.shape { stop } else { None };
         match shaped.shape {
             Shape::Alarm(alarm) => return self.raise(alarm),
             Shape::Close(close) => {
@@ -420,6 +421,9 @@ impl<L: Library> Session<L> {
             }
             Ok(()) => {}
             Err(refusal) => self.raise(self.at_the_word(refusal.alarm)),
+        }
+        if let Some(kind) = stop {
+            self.stop(place, kind);
         }
     }
 

@@ -149,6 +149,19 @@ fn cycles_and_patterns_allocate_nothing() {
 }
 
 #[test]
+fn boring_and_round_holes_allocate_nothing() {
+    check("boring", |n| match n % 7 {
+        0 => format!("G99G76X{}.Z-3.R2.Q.5P10F200", n % 50),
+        1 => "G77Y5.Z3.R-2.I.5L2".to_owned(),
+        2 => "G88Y2.Z-3.R2.".to_owned(),
+        3 => "G73Z-3.Q.5".to_owned(),
+        4 => "G10P31R2.5".to_owned(),
+        5 => "G13I10.D31".to_owned(),
+        _ => "G80".to_owned(),
+    });
+}
+
+#[test]
 fn calls_allocate_nothing() {
     check("calls", |_| "M98P2L2".to_owned());
 }

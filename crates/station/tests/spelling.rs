@@ -34,6 +34,8 @@ enum Piece {
     Position(u8, u8, [Grid; 2], Grid),
     /// Cycle, return level, R below the start, depth below R, peck, feed, holes.
     Cycle(u8, u8, Grid, Grid, Grid, Grid, Vec<[Grid; 2]>),
+    /// G12 or G13, number, radius, feed.
+    Circle(u8, u8, Grid, Grid),
     /// G70 or G72 where X and Y lead, size, angle in degrees, count; with a cycle or alone.
     Pattern(u8, [Grid; 2], Grid, i32, i32, bool),
 }
@@ -167,6 +169,11 @@ impl Writer {
                 let _ = write!(self.text, "D{number}");
                 self.feed(*feed);
             }
+            Piece::Circle(code, number, radius, feed) => {
+                let _ = write!(self.text, "G{code}D{number}");
+                self.length('I', *radius);
+                self.feed(*feed);
+            }
             Piece::Cycle(cycle, level, r, depth, peck, feed, holes) => {
                 let _ = write!(self.text, "G{level}G{cycle}");
                 for (index, hole) in holes.iter().enumerate() {
@@ -281,7 +288,8 @@ fn piece() -> impl Strategy<Value = Piece> {
         1 => (sample::select(vec![43u8, 44, 49]), sample::select(vec![0u8, 1, 2]), proptest::option::of(distance()))
             .prop_map(|(g, h, z)| Piece::Length(g, h, z)),
         2 => (45u8..49, sample::select(vec![31u8, 32]), [distance(), distance()], feed()).prop_map(|(g, d, to, f)| Piece::Position(g, d, to, f)),
-        2 => (81u8..85, sample::select(vec![98u8, 99]), 0i64..40, 1i64..90, 1i64..30, feed(), prop::collection::vec([distance(), distance()], 1..4))
+        1 => (12u8..14, sample::select(vec![31u8, 32]), 64i64..400, feed()).prop_map(|(g, d, i, f)| Piece::Circle(g, d, i, f)),
+        2 => (sample::select(vec![73u8, 74, 76, 81, 82, 83, 84, 85, 86, 87, 88, 89]), sample::select(vec![98u8, 99]), 0i64..40, 1i64..90, 1i64..30, feed(), prop::collection::vec([distance(), distance()], 1..4))
             .prop_map(|(g, level, r, z, q, f, holes)| Piece::Cycle(g, level, r, z, q, f, holes)),
         1 => (sample::select(vec![70u8, 72]), [distance(), distance()], 1i64..300, -400i32..400, 1i32..9, any::<bool>())
             .prop_map(|(g, at, i, j, l, drills)| Piece::Pattern(g, at, i, j, l, drills)),

@@ -64,6 +64,8 @@ pub struct Case {
     pub waits: Option<Waits>,
     /// `a.nc` and `b.nc` must agree in their motion.
     pub same_motion: bool,
+    /// They may differ by a least increment, where one rounds words and the other derives points.
+    pub within_increment: bool,
     /// Files that the command writes, compared with those of the folder.
     pub writes: Vec<String>,
 }
@@ -103,7 +105,8 @@ fn case(table: &mut Table) -> Case {
     let run: Vec<String> =
         table.string("run").unwrap_or_else(|| "trace".to_owned()).split_whitespace().map(str::to_owned).collect();
     let file = table.string("file").or_else(|| usual_file(&run));
-    let same = table.choice("same", &[("motion", true)]);
+    // The second of the two: within an increment.
+    let same = table.choice("same", &[("motion", false), ("motion-within-increment", true)]);
     Case {
         why,
         covers,
@@ -114,7 +117,8 @@ fn case(table: &mut Table) -> Case {
         arguments: table.strings("arguments").unwrap_or_default(),
         exit: table.integer("exit").and_then(|exit| i32::try_from(exit).ok()).unwrap_or(0),
         waits: table.choice("waits", Waits::NAMES),
-        same_motion: same.unwrap_or(false),
+        same_motion: same.is_some(),
+        within_increment: same.unwrap_or(false),
         writes: table.strings("writes").unwrap_or_default(),
     }
 }

@@ -77,6 +77,11 @@ fn judge_pair(case: &Case, folder: &Path, program: Program) -> Result<(), String
         let outcome = run(case, folder, Some(file), program)?;
         paths.push(motion::motion_of(&outcome.out).map_err(|error| format!("{file}: {error}"))?);
     }
+    if let [a, b] = &mut paths[..]
+        && case.within_increment
+    {
+        *b = motion::settled(a, b);
+    }
     let [a, b] = &paths[..] else { return Ok(()) };
     if a.is_empty() {
         return Err("a.nc moves nothing: two empty paths prove nothing".to_owned());

@@ -27,6 +27,36 @@ pub(crate) fn motion_of(trace: &str) -> Result<String, String> {
     Ok(lines)
 }
 
+/// The least input increment, mm or degrees, and what writing six decimals can add to it.
+const INCREMENT: f64 = 0.001 + 0.000_001;
+
+/// The second of two motions, with the first one's lines where they differ by no more than a least increment.
+pub(crate) fn settled(first: &str, second: &str) -> String {
+    let mut lines = String::new();
+    let mut wanted = first.lines();
+    for line in second.lines() {
+        let other = wanted.next().unwrap_or_default();
+        lines.push_str(if agree(other, line) { other } else { line });
+        lines.push('\n');
+    }
+    lines
+}
+
+/// True if two lines say the same but for numbers that lie within a least increment.
+fn agree(a: &str, b: &str) -> bool {
+    let (a, b) = (parts(a), parts(b));
+    let near = |(a, b): (&&str, &&str)| {
+        let numbers = a.parse::<f64>().ok().zip(b.parse::<f64>().ok());
+        a == b || numbers.is_some_and(|(a, b)| (a - b).abs() <= INCREMENT)
+    };
+    a.len() == b.len() && a.iter().zip(&b).all(near)
+}
+
+/// A line cut into its numbers and what stands between them.
+fn parts(line: &str) -> Vec<&str> {
+    line.split([' ', ',', ':', '{', '}']).collect()
+}
+
 /// A line of a trace.
 ///
 /// # Errors

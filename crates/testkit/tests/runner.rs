@@ -110,7 +110,11 @@ fn a_waiting_case_fails_as_soon_as_it_works() {
 
 /// Judges a pair whose programs are the traces that running them prints.
 fn pair(a: &str, b: &str) -> Result<(), String> {
-    let case = format!("{CASE}same = \"motion\"\n");
+    pair_of("motion", a, b)
+}
+
+fn pair_of(same: &str, a: &str, b: &str) -> Result<(), String> {
+    let case = format!("{CASE}same = \"{same}\"\n");
     let folder = folder(&[("case.toml", &case), ("a.nc", a), ("b.nc", b)]);
     let program = |call: &Call| {
         let out = fs::read_to_string(call.folder.join(&call.arguments[1]))?;
@@ -131,6 +135,21 @@ fn a_pair_agrees_in_its_motion_alone() {
     assert!(pair(a, "nonsense\n").is_err());
     let case = format!("{CASE}same = \"motion\"\n");
     assert!(refusal(&[("case.toml", &case), ("a.nc", a)], a, "", 0).contains("b.nc is missing"));
+}
+
+#[test]
+fn a_pair_within_an_increment_may_differ_by_that_much() {
+    let line = |x: &str| format!("{{\"event\":\"feed\",\"to\":{{\"x\":{x},\"y\":-2}},\"f\":100}}\n");
+    let two = |x: &str| line("1") + &line(x);
+    assert!(pair(&two("34.641016"), &two("34.641")).is_err());
+    let within = |a: &str, b: &str| pair_of("motion-within-increment", a, b);
+    assert_eq!(within(&two("34.641016"), &two("34.641")), Ok(()));
+    assert_eq!(within(&two("-0.0005"), &two("0.0005")), Ok(()));
+    for (a, b) in
+        [(two("34.641"), two("34.6421")), (two("1"), line("1")), (two("1"), two("1").replace("feed", "rapid"))]
+    {
+        assert!(within(&a, &b).is_err(), "{a}{b}");
+    }
 }
 
 #[test]

@@ -1,14 +1,18 @@
 //! Cycle blocks and hole patterns: from words to [`Holes`].
 
-use base::{AXES, Alarm, Condition};
-use dialect::{CycleL0Moves, Meaning};
+use base::{AXES, Alarm, Condition, Point};
+use dialect::{CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, G87Return, Meaning};
 
 use super::pattern::{Places, sin_cos_deg};
-use super::{CycleData, Holes, needs_peck, steps_of, store};
+use super::{CycleData, Holes, Spindle, needs_peck, needs_shift, store, store_shift};
 use crate::block::Reading;
 use crate::command::Body;
-use crate::operation::{Feed, RapidKind};
+use crate::operation::{Feed, RapidKind, Side};
 use crate::unknown::letter_bit;
+
+/// Bits of the parameter for the direction in which Q shifts the tool.
+const SHIFTS_TO_MINUS: u8 = 1;
+const SHIFTS_ALONG_Y: u8 = 2;
 
 impl Reading<'_> {
     /// The initial level in program coordinates.
@@ -47,6 +51,7 @@ impl Reading<'_> {
         let (units, absolute, takes_dwell) = (self.units, self.absolute, !self.calls_or_returns);
         let initial = self.initial_level(cycle)?;
         store(&self.words, control, units, absolute, takes_dwell, initial, &mut self.next.cycle)?;
+        store_shift(&self.words, control, units, &mut self.next.cycle)?;
         let levels = letter_bit(b'R') | letter_bit(b'Z');
         if !self.words.has_any(self.setting.axis_letters | levels) {
             return Ok(());
@@ -66,12 +71,12 @@ impl Reading<'_> {
             self.now_known.add(axis);
         }
         let places = Places::Row { first, step, count: count.max(1) };
-        self.holes((count > 0).then_some(cycle), places)
+        let approach = self.cycle_approach();
+        self.holes((count > 0).then_some(cycle), places, approach)
     }
 
     /// G70, G71, G72: holes on a circle, an arc or a line, made with the cycle in force or only gone to.
     pub fn pattern(&mut self, code: Meaning, cycle: Option<Meaning>) -> Result<(), Alarm> {
-        self.refuse_unbuilt_cycle(cycle)?;
         let control = self.control();
         let [Some(x), Some(y)] = [b'X', b'Y'].map(|letter| self.setting.facts.axis(letter)) else {
             return Err(self.one_shot_alarm(Condition::AddressUnavailable));
@@ -128,24 +133,26 @@ impl Reading<'_> {
             step[y] = transform.distance(y, size * sin);
             Places::Row { first: level, step, count: count.unsigned_abs() as u32 }
         };
-        self.holes(cycle, places)
-    }
-
-    fn refuse_unbuilt_cycle(&self, cycle: Option<Meaning>) -> Result<(), Alarm> {
-        match cycle {
-            Some(cycle) if steps_of(cycle).is_none() => Err(self.one_shot_alarm(Condition::NotYetBuilt)),
-            _ => Ok(()),
-        }
+        // Positions of a pattern are gone to as by G00, under G60 too.
+        self.holes(cycle, places, [0.0; AXES])
     }
 
     /// The block's holes, and where it leaves the axes.
-    fn holes(&mut self, cycle: Option<Meaning>, places: Places) -> Result<(), Alarm> {
+    fn holes(&mut self, cycle: Option<Meaning>, places: Places, approach: Point) -> Result<(), Alarm> {
+        if self.command.side != Side::Off {
+            if self.setting.fitting.policies.cycle_in_compensation == CycleInCompensation::Refuse {
+                return Err(match self.one_shot {
+                    Some(_) => self.one_shot_alarm(Condition::CycleInCompensation),
+                    None => self.motion_alarm(Condition::CycleInCompensation),
+                });
+            }
+            self.command.side = Side::Off;
+        }
         let drilling = self.drilling_axis()?;
         let mut end_point = places.at(places.count().saturating_sub(1));
         if cycle.is_some() {
             end_point[drilling] = self.next.machine[drilling];
         }
-        let approach = self.cycle_approach();
         let mut holes = Holes {
             cycle,
             places,
@@ -157,11 +164,19 @@ impl Reading<'_> {
             peck: 0.0,
             clearance: 0.0,
             dwell: 0.0,
+            shift: [0.0; 2],
+            shift_axes: [drilling as u8; 2],
+            restart: None,
+            by_hand: false,
             feed: Feed { mm_per_min: 0.0, exact_stop: false, tapping: false },
             rapid: RapidKind::Checked,
         };
         if let Some(cycle) = cycle {
             self.levels(cycle, drilling, &mut holes)?;
+            self.spindle(cycle, &mut holes);
+            if needs_shift(cycle) {
+                self.shift(&mut holes)?;
+            }
             end_point[drilling] = holes.end;
             self.next.length_due = 0.0;
             self.now_known.add(drilling);
@@ -178,12 +193,11 @@ impl Reading<'_> {
             return Err(self.motion_alarm(Condition::CycleLevelMissing));
         };
         if needs_peck(cycle) && data.peck <= 0.0 {
-            return Err(match self.words.has(b'Q') {
-                true => self.words.alarm(Condition::CyclePeckMissing, b'Q'),
-                false => self.motion_alarm(Condition::CyclePeckMissing),
-            });
+            return Err(self.q_alarm(Condition::CyclePeckMissing));
         }
-        let to_r = control.in_force(&self.next.groups, control.roles.return_level) == Some(Meaning::ReturnR);
+        // After back boring the tool would stand at R under the part.
+        let to_r = control.in_force(&self.next.groups, control.roles.return_level) == Some(Meaning::ReturnR)
+            && cycle != Meaning::BackBore;
         holes.r = self.level_placed(cycle, drilling, r);
         holes.bottom = self.level_placed(cycle, drilling, bottom);
         holes.end = if to_r { holes.r } else { data.initial + self.next.length };
@@ -192,5 +206,46 @@ impl Reading<'_> {
         holes.dwell = data.dwell;
         holes.feed = self.feed()?;
         Ok(())
+    }
+
+    /// How the spindle starts again, and how it turns after the block.
+    fn spindle(&mut self, cycle: Meaning, holes: &mut Holes) {
+        let policies = &self.setting.fitting.policies;
+        holes.restart = match self.next.spindle_direction {
+            None if policies.cycle_spindle_unknown == CycleSpindleUnknown::Forward => Some(Spindle::Forward),
+            direction => direction,
+        };
+        holes.by_hand = match cycle {
+            Meaning::BoreDwellManualOut => true,
+            Meaning::BoreManualOut => policies.g87_return == G87Return::Manual,
+            _ => false,
+        };
+        match cycle {
+            Meaning::Tap => self.next.spindle_direction = Some(Spindle::Forward),
+            Meaning::LeftTap => self.next.spindle_direction = Some(Spindle::Reverse),
+            _ => {}
+        }
+    }
+
+    /// The shift off the wall: I and J if they are stored, else Q in the direction that a parameter sets.
+    fn shift(&self, holes: &mut Holes) -> Result<(), Alarm> {
+        let [Some(x), Some(y)] = [b'X', b'Y'].map(|letter| self.setting.facts.axis(letter)) else {
+            return Err(self.motion_alarm(Condition::AddressUnavailable));
+        };
+        let data = self.next.cycle;
+        let direction = self.setting.fitting.parameter_if_any(self.control().tolerances.cycle_shift) as u8;
+        let by_q = if direction & SHIFTS_TO_MINUS != 0 { -data.peck } else { data.peck };
+        holes.shift_axes = [x as u8, y as u8];
+        holes.shift = match data.shift.filter(|&vector| vector != [0.0; 2]) {
+            Some(vector) => vector,
+            None if direction & SHIFTS_ALONG_Y != 0 => [0.0, by_q],
+            None => [by_q, 0.0],
+        };
+        if holes.shift == [0.0; 2] { Err(self.q_alarm(Condition::CycleShiftMissing)) } else { Ok(()) }
+    }
+
+    /// An alarm at Q, or at the cycle's code if there is none.
+    fn q_alarm(&self, condition: Condition) -> Alarm {
+        if self.words.has(b'Q') { self.words.alarm(condition, b'Q') } else { self.motion_alarm(condition) }
     }
 }

@@ -1,6 +1,7 @@
 //! Checking on after a refused block: what it names is unknown from then on.
 
 use base::AxisSet;
+use dialect::Meaning;
 use syntax::Value;
 
 use super::Reader;
@@ -28,13 +29,13 @@ impl Reader {
         unknown
     }
 
-    /// True if the block at hand is to set the base work system.
-    fn sets_coordinates(&self) -> bool {
+    /// True if the block at hand has a code with this meaning.
+    fn has_code(&self, meaning: Meaning) -> bool {
         self.block.words.iter().any(|word| {
             let Value::Number(number) = word.value else { return false };
             let row = number.integer().and_then(|code| self.setting.control.g_row(code));
             let code = row.and_then(|row| self.setting.control.g_codes.get(usize::from(row)));
-            word.letter == b'G' && code.is_some_and(|code| code.meaning == dialect::Meaning::SetCoordinates)
+            word.letter == b'G' && code.is_some_and(|code| code.meaning == meaning)
         })
     }
 
@@ -49,7 +50,8 @@ impl Reader {
                 None => unknown.words |= letter_bit(word.letter),
             }
         }
-        if self.sets_coordinates() {
+        unknown.memory |= self.has_code(Meaning::WriteData);
+        if self.has_code(Meaning::SetCoordinates) {
             let named = self.block.words.iter().filter_map(|word| self.setting.facts.axis(word.letter));
             named.for_each(|axis| unknown.origins.add(axis));
             unknown.groups |= 1 << self.setting.control.roles.work;

@@ -115,11 +115,12 @@ impl Reading<'_> {
         }
         let control = self.control();
         let [metric, inch, rotary] = control.increments;
+        let coarse = self.words.coarse as f64;
         let increment = match control.address(word.letter).map(|address| address.kind) {
             Some(AddressKind::LinearAxis | AddressKind::Length) if self.units == UnitSystem::Inch => {
-                inch as f64 / base::units::NM_PER_INCH as f64
+                inch as f64 * coarse / base::units::NM_PER_INCH as f64
             }
-            Some(AddressKind::LinearAxis | AddressKind::Length) => metric as f64 / 1e6,
+            Some(AddressKind::LinearAxis | AddressKind::Length) => metric as f64 * coarse / 1e6,
             Some(AddressKind::RotaryAxis) => rotary as f64 / 1e6,
             _ => 1.0,
         };

@@ -11,6 +11,7 @@ use super::store::{Line, Target};
 use super::system::{Source, Written};
 use super::trouble::Trouble;
 use crate::command::Command;
+use crate::data_setting::DataWrite;
 use crate::jump::{LoopsAround, OpenLoop, Search, Target as Goal};
 use crate::operation::SetValue;
 use crate::program::Frame;
@@ -224,15 +225,17 @@ impl Reader {
         match written {
             Written::Nothing => return Ok(SetValue::Variable { number, value }),
             Written::Offset(offset, mm) => {
-                self.setting.memory.lengths.set(offset, mm * 1e6);
+                let write = DataWrite::Offset { number: offset, value: mm * 1e6 };
+                self.state.memory_mark ^= self.setting.memory.write(write);
                 return Ok(SetValue::Offset { number: offset, value: mm });
             }
             Written::Origin(system, axis, counts) => match system.checked_sub(1) {
                 None => self.state.common_shift[axis] = counts,
                 Some(index) => {
-                    if let Some(origin) = self.setting.memory.work.get_mut(usize::from(index)) {
-                        origin[axis] = counts;
-                    }
+                    let system = usize::from(index);
+                    let mut origin = self.setting.memory.work.get(system).copied().unwrap_or_default();
+                    origin[axis] = counts;
+                    self.state.memory_mark ^= self.setting.memory.write(DataWrite::Work { system, origin });
                 }
             },
             Written::BlockControl(bits) => self.state.block_control = bits,

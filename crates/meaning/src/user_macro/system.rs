@@ -188,7 +188,7 @@ impl Source<'_> {
         Ok(match row.meaning {
             VariableMeaning::Offset => {
                 let mm = filled * unit_of(self.setting, self.state, false) / 1e6;
-                let limit = self.setting.control.offset_limit_mm;
+                let limit = self.setting.offset_limit(unit_of(self.setting, self.state, false) != 1e6) / 1e6;
                 if mm.abs() > limit {
                     return Err(Trouble::Refused(Condition::OffsetRange, place, [mm, limit, 0.0]));
                 }

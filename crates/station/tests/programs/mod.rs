@@ -52,8 +52,11 @@ fn block(control: &Control) -> impl Strategy<Value = String> + use<> {
         3 => (select(vec!["G00", "G01", "G02", "G03", "G60", "G06", "G28", "G53", "G92"]), xyz()).prop_map(|(g, xyz)| format!("{g}{xyz}F200")),
         3 => xyz(),
         2 => (select(vec!["G02", "G03"]), xyz(), word(b"IJKR", number())).prop_map(|(g, xyz, c)| format!("{g}{xyz}{c}F300.")),
-        2 => (select(vec!["G81", "G82", "G83", "G84"]), xyz(), small(0..4))
+        2 => (select(vec!["G73", "G74", "G76", "G77", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89"]), xyz(), small(0..4))
             .prop_map(|(g, xyz, l)| format!("{g}{xyz}Z-5.R1.Q1.5P100F100L{l}")),
+        1 => (select(vec!["G12", "G13"]), number(), small(0..40)).prop_map(|(g, i, d)| format!("{g}I{i}D{d}F200")),
+        1 => (select(vec!["", "Q2", "L2"]), small(0..101), xyz(), number())
+            .prop_map(|(kind, p, xyz, r)| format!("G10{kind}P{p}{xyz}R{r}")),
         1 => (select(vec!["G70", "G72"]), xyz(), -5i32..9).prop_map(|(g, xyz, l)| format!("{g}{xyz}I20.J30.L{l}")),
         1 => (select(vec!["G45", "G46", "G47", "G48"]), xyz()).prop_map(|(g, xyz)| format!("{g}{xyz}D31")),
         1 => (select(vec!["G43", "G44", "G49"]), xyz()).prop_map(|(g, xyz)| format!("{g}{xyz}H1")),

@@ -1,0 +1,177 @@
+//! G10: the program writes tool offsets and work origins.
+//!
+//! It acts when the block is read, ahead of the blocks still being executed, and moves nothing: an offset counts from
+//! the next block that calls for it, an origin from the next block read.
+
+use base::{AXES, Alarm, Condition, Point, UnitSystem};
+use dialect::{Meaning, UnitChangeOffsets};
+
+use crate::block::Reading;
+use crate::command::Body;
+use crate::facts::Memory;
+use crate::operation::SetValue;
+use crate::setting::Setting;
+
+/// A value that goes into memory.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum DataWrite {
+    /// A tool offset, nanometres.
+    Offset { number: u32, value: f64 },
+    /// The origin of a work system (index from 0), counts in machine coordinates.
+    Work { system: usize, origin: Point },
+}
+
+/// Q (or L) of work origins.
+const WORK_ORIGINS: i64 = 2;
+
+impl Reading<'_> {
+    /// G10: P and R write a tool offset, with Q2 (L2) P and the axis words a work origin. In incremental mode the
+    /// value is added to the stored one.
+    pub fn write_data(&mut self) -> Result<(), Alarm> {
+        let control = self.setting.control.as_ref();
+        let mut kind = None;
+        for letter in [b'Q', b'L'] {
+            let Some(value) = self.words.integer(control, letter)? else { continue };
+            if value != WORK_ORIGINS {
+                return Err(self.words.alarm(Condition::DataKindUnknown, letter).with([value as f64, 0.0, 0.0]));
+            }
+            kind = Some(value);
+        }
+        let number = self.words.count(control, b'P')?;
+        let highest = if kind.is_some() { self.setting.memory.work.len() as u32 } else { control.highest_offset };
+        let Some(number) = number.filter(|&number| number > 0 && number <= highest) else {
+            let values = [f64::from(number.unwrap_or(0)), f64::from(highest), 0.0];
+            return Err(self.at_word_or_code(b'P', Condition::DataNumber).with(values));
+        };
+        if kind.is_some() { self.write_work_origin(number) } else { self.write_offset(number) }
+    }
+
+    fn at_word_or_code(&self, letter: u8, condition: Condition) -> Alarm {
+        if self.words.has(letter) { self.words.alarm(condition, letter) } else { self.one_shot_alarm(condition) }
+    }
+
+    fn write_offset(&mut self, number: u32) -> Result<(), Alarm> {
+        let control = self.setting.control.as_ref();
+        let Some(value) = self.words.length(control, b'R', self.units)? else {
+            return Err(self.one_shot_alarm(Condition::DataValueMissing));
+        };
+        let before = self.offset(self.setting.memory.length(number)).unwrap_or(0.0);
+        let value = if self.absolute { value } else { before + value };
+        let [metric, inch, _] = control.increments.map(|increment| increment as f64);
+        let unit = if self.units == UnitSystem::Inch { inch / metric } else { 1.0 };
+        let limit = self.setting.offset_limit(self.units == UnitSystem::Inch);
+        if value.abs() > limit {
+            return Err(self.words.alarm(Condition::OffsetRange, b'R').with([value / 1e6, limit / 1e6, 0.0]));
+        }
+        let keeps_digits = self.setting.fitting.policies.unit_change_offsets == UnitChangeOffsets::Keep;
+        let stored = if keeps_digits { value / unit } else { value };
+        self.command.write = Some(DataWrite::Offset { number, value: stored });
+        self.command.body = Body::Set(SetValue::Offset { number, value: value / 1e6 }, None);
+        Ok(())
+    }
+
+    fn write_work_origin(&mut self, number: u32) -> Result<(), Alarm> {
+        let system = number as usize - 1;
+        let axes = self.axes_named()?;
+        if axes.is_empty() {
+            return Err(self.one_shot_alarm(Condition::DataValueMissing));
+        }
+        let Some(&before) = self.setting.memory.work.get(system) else {
+            return Err(self.one_shot_alarm(Condition::DataNumber));
+        };
+        let mut origin = before;
+        for axis in axes.iter() {
+            let (value, _) = self.axis_word(axis)?;
+            origin[axis] = if self.absolute { value } else { before[axis] + value };
+            self.check_origin(axis, origin[axis])?;
+        }
+        self.command.write = Some(DataWrite::Work { system, origin });
+        let rows = &self.setting.control.g_codes;
+        let row = rows.iter().position(|row| row.meaning == Meaning::WorkSystem && u32::from(row.number) == number);
+        let origin = self.setting.to_mm(&origin);
+        self.command.body = Body::Set(SetValue::WorkOrigin { system: row.unwrap_or(0) as u8, axes, origin }, None);
+        Ok(())
+    }
+
+    /// An origin that has grown beyond what a word of its axis can hold is refused.
+    fn check_origin(&self, axis: usize, counts: f64) -> Result<(), Alarm> {
+        let Some(facts) = self.setting.facts.axes.get(axis) else { return Ok(()) };
+        let Some(address) = self.setting.control.address(facts.letter) else { return Ok(()) };
+        let (range, unit) = match (facts.rotary, self.units) {
+            (true, _) => (address.rotary, 1e6),
+            (false, UnitSystem::Metric) => (address.metric, 1e6),
+            (false, UnitSystem::Inch) => (address.inch, base::units::NM_PER_INCH as f64),
+        };
+        let limit = range[1] * unit;
+        if counts.abs() <= limit {
+            return Ok(());
+        }
+        Err(self.words.alarm(Condition::OffsetRange, facts.letter).with([counts / 1e6, limit / 1e6, 0.0]))
+    }
+}
+
+impl Setting {
+    /// The largest offset, nanometres: as many least increments in inch input as in metric.
+    pub(crate) fn offset_limit(&self, inch: bool) -> f64 {
+        let [metric, per_inch, _] = self.control.increments;
+        self.control.offset_limit_mm * 1e6 * if inch { per_inch as f64 / metric as f64 } else { 1.0 }
+    }
+}
+
+impl Memory {
+    /// Writes a value; returns by what the mark of the memory's content changes.
+    pub(crate) fn write(&mut self, write: DataWrite) -> u64 {
+        match write {
+            DataWrite::Offset { number, value } => {
+                let before = self.lengths.value(number).unwrap_or(0.0);
+                self.lengths.set(number, value);
+                mark(u64::from(number), before) ^ mark(u64::from(number), value)
+            }
+            DataWrite::Work { system, origin } => {
+                let Some(stored) = self.work.get_mut(system) else { return 0 };
+                let mut change = 0;
+                for axis in 0..AXES {
+                    let place = WORK_PLACES + (system * AXES + axis) as u64;
+                    change ^= mark(place, stored[axis]) ^ mark(place, origin[axis]);
+                }
+                *stored = origin;
+                change
+            }
+        }
+    }
+}
+
+/// Places of work origins in the mark, beyond every offset number.
+const WORK_PLACES: u64 = 1 << 32;
+
+/// A value and its place, mixed so that memories with different contents differ in their mark.
+fn mark(place: u64, value: f64) -> u64 {
+    let mut bits = (value + 0.0).to_bits() ^ place.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    for factor in [0xbf58_476d_1ce4_e5b9, 0x94d0_49bb_1331_11eb] {
+        bits = (bits ^ (bits >> 30)).wrapping_mul(factor);
+    }
+    bits ^ (bits >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::facts::OffsetTable;
+    use crate::user_macro::Variables;
+
+    #[test]
+    fn the_mark_comes_back_with_the_value() {
+        let files = dialect::builtin_files("yasnac-mx1").expect("it is built in");
+        let control = dialect::load_control(&files).expect("it loads");
+        let variables = Variables::new(&control.user_macro, 1);
+        let mut memory = Memory { lengths: OffsetTable::new(99), radii: None, work: [[0.0; AXES]; 6], variables };
+        let first = memory.write(DataWrite::Offset { number: 3, value: 5e6 });
+        let second = memory.write(DataWrite::Offset { number: 3, value: 0.0 });
+        assert!(first != 0 && first ^ second == 0);
+        let mut origin = [0.0; AXES];
+        origin[2] = -20e6;
+        assert_ne!(memory.write(DataWrite::Work { system: 0, origin }), 0);
+        assert_eq!(memory.write(DataWrite::Work { system: 0, origin }), 0);
+        assert_eq!(memory.work[0][2], -20e6);
+    }
+}

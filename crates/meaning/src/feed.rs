@@ -1,0 +1,97 @@
+//! F: per minute, per revolution, one digit for a stored feed; what a cutting move makes of it.
+
+use base::units::NM_PER_INCH;
+use base::{AXES, Alarm, Condition, Point, UnitSystem};
+use dialect::{FeedModeChange, InchFeedInteger, Meaning};
+
+use crate::block::Reading;
+use crate::operation::Feed;
+use crate::state::FeedWord;
+
+impl Reading<'_> {
+    /// True under feed per revolution.
+    pub fn is_per_revolution(&self) -> bool {
+        let control = self.setting.control.as_ref();
+        control.in_force(&self.next.groups, control.roles.feed_mode) == Some(Meaning::FeedPerRevolution)
+    }
+
+    /// The block's F.
+    pub fn take_feed(&mut self) -> Result<(), Alarm> {
+        let control = self.setting.control.as_ref();
+        let (Some(number), Some(address)) = (self.words.number(b'F')?, control.address(b'F')) else { return Ok(()) };
+        let per_revolution = self.is_per_revolution();
+        let one_digit = number.digits == 1 && !number.point && !number.negative;
+        if one_digit && !per_revolution && self.setting.fitting.options.one_digit_feed {
+            self.next.feed = FeedWord { nanometres: self.stored_feed(number.mantissa)?, per_revolution, inch: false };
+            return Ok(());
+        }
+        let nanometres = if per_revolution {
+            control.feed_per_revolution(address, number, self.units, self.words.coarse)
+        } else {
+            let tenths = self.setting.fitting.policies.inch_feed_integer == InchFeedInteger::Tenth;
+            control.feed_per_minute(address, number, self.units, tenths)
+        };
+        let nanometres = nanometres.map_err(|(condition, values)| self.words.alarm(condition, b'F').with(values))?;
+        self.next.feed = FeedWord { nanometres, per_revolution, inch: self.units == UnitSystem::Inch };
+        Ok(())
+    }
+
+    /// What a one-digit F calls: a feed from the parameters, or for F0 one without bounds, which is the rapid rate.
+    fn stored_feed(&self, digit: u64) -> Result<f64, Alarm> {
+        if digit == 0 {
+            return Ok(f64::INFINITY);
+        }
+        let index = usize::try_from(digit - 1).unwrap_or(usize::MAX);
+        let parameter = self.setting.control.feeds.stored.get(index).copied().flatten();
+        let mm_per_min = self.setting.fitting.parameter_if_any(parameter);
+        if mm_per_min <= 0.0 {
+            return Err(self.words.alarm(Condition::StoredFeedMissing, b'F').with([digit as f64, 0.0, 0.0]));
+        }
+        Ok(mm_per_min * 1e6)
+    }
+
+    /// The feed of a straight cut to `to`. If rotary axes alone move, F is degrees a minute or a turn, in inches too.
+    pub fn feed_to(&self, to: &Point) -> Result<Feed, Alarm> {
+        if !self.next.feed.inch {
+            return self.feed();
+        }
+        let axes = self.setting.facts.axes.iter().enumerate().take(AXES);
+        let mut moving = axes.filter(|&(axis, _)| to[axis] != self.next.machine[axis]).peekable();
+        let turns = moving.peek().is_some() && moving.all(|(_, facts)| facts.rotary);
+        if turns { self.feed_by(1e6 / NM_PER_INCH as f64) } else { self.feed() }
+    }
+
+    /// The feed of a cutting move.
+    pub fn feed(&self) -> Result<Feed, Alarm> {
+        self.feed_by(1.0)
+    }
+
+    fn feed_by(&self, factor: f64) -> Result<Feed, Alarm> {
+        let per_revolution = self.is_per_revolution();
+        let keeps = self.setting.fitting.policies.feed_mode_change == FeedModeChange::KeepsNumber;
+        let feed = self.next.feed;
+        if feed.nanometres <= 0.0 || (feed.per_revolution != per_revolution && !keeps) {
+            return Err(self.motion_alarm(Condition::FeedMissing));
+        }
+        let mut mm = feed.nanometres / 1e6 * factor;
+        if per_revolution {
+            mm *= self.spindle_rpm().map_err(|condition| self.motion_alarm(condition))?;
+        }
+        let limit = self.setting.fitting.parameter_if_any(self.setting.control.feeds.limit);
+        if limit > 0.0 && mm.is_finite() {
+            mm = mm.min(limit);
+        }
+        Ok(Feed { mm_per_min: mm, exact_stop: self.exact_stop, tapping: false })
+    }
+
+    /// The spindle speed that S has set, rev/min.
+    pub fn spindle_rpm(&self) -> Result<f64, Condition> {
+        if !self.setting.fitting.options.spindle_rpm {
+            return Err(Condition::SpindleSpeedCoded);
+        }
+        if self.next.spindle == 0 {
+            return Err(Condition::SpindleSpeedMissing);
+        }
+        Ok(f64::from(self.next.spindle))
+    }
+}
