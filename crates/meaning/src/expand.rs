@@ -147,6 +147,7 @@ impl Expansion {
         let mm = |counts: &Point| to_mm(counts, around.axes);
         match &command.body {
             Body::Holes(holes) => return self.next_in_hole(holes, around, &mut out.stop_point),
+            Body::Skip { .. } => return self.next_in_skip(command, around, out),
             Body::Centring(centring) => return self.next_in_centring(centring, around, out),
             _ => {}
         }
@@ -174,12 +175,6 @@ impl Expansion {
                 Some(Act::Rapid { to: mm(via), kind: RapidKind::Checked })
             }
             (Body::Via { to, .. }, 1) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),
-            (Body::Skip { to, feed, .. }, 0) => {
-                self.target = *to;
-                out.until_signal = true;
-                Some(Act::Line { to: mm(to), feed: *feed })
-            }
-            (Body::Skip { missed: Some(alarm), .. }, 1) if self.missed => Some(Act::Alarm(*alarm)),
             (Body::Dwell(dwell), 0) => Some(Act::Dwell(*dwell)),
             (Body::Set(value, _), 0) => Some(Act::Set(*value)),
             (Body::Set(_, Some(value)), 1) => Some(Act::Set(*value)),
@@ -189,7 +184,26 @@ impl Expansion {
         }
     }
 
+    /// A line until the skip signal, and the alarm where it did not come.
+    #[cold]
+    #[inline(never)]
+    fn next_in_skip(&mut self, command: &Command, around: &Surroundings, out: &mut Operation) -> Option<Act> {
+        let Body::Skip { to, feed, missed } = &command.body else { return None };
+        self.phase += 1;
+        match (self.phase, missed) {
+            (1, _) => {
+                self.target = *to;
+                out.until_signal = true;
+                Some(Act::Line { to: to_mm(to, around.axes), feed: *feed })
+            }
+            (2, Some(alarm)) if self.missed => Some(Act::Alarm(*alarm)),
+            _ => None,
+        }
+    }
+
     /// Three phases an axis: to one side, to the other, to the middle.
+    #[cold]
+    #[inline(never)]
     fn next_in_centring(&mut self, centring: &Centring, around: &Surroundings, out: &mut Operation) -> Option<Act> {
         let phase = self.phase;
         let &(axis, distance) = centring.along.iter().flatten().nth(usize::from(phase) / 3)?;

@@ -110,3 +110,31 @@ fn reset_goes_back_to_the_state_of_the_block_being_executed() {
     assert_eq!(name(&interpreter, interpreter.read_state().groups.0[distance]), "G91", "what was read is dropped");
     assert_eq!(interpreter.read_state().machine[0], 500_000.0, "the axes stand where they really are");
 }
+
+#[test]
+fn a_skip_move_goes_on_from_where_the_machine_says_it_stands() {
+    let text = b"G31 X10. F100\nG91 G01 X1.\nM30\n";
+    let second_move = |answer: Answer| {
+        let mut interpreter = interpreter();
+        next(&mut interpreter, text, 1000);
+        assert!(next(&mut interpreter, text, 1000).starts_with("1: Line"));
+        assert_eq!(next(&mut interpreter, text, 1000), "SkipPosition");
+        let distance = interpreter.control().roles.distance;
+        let row = interpreter.read_state().groups.0[distance];
+        assert_eq!(interpreter.control().g_name(row), "G90", "the second block has not been read");
+        let Pull::Barrier(barrier) = interpreter.next() else { panic!("the question stays") };
+        interpreter.resume(barrier.id, answer).expect("it is open");
+        let state = interpreter.read_state();
+        assert_eq!(state, interpreter.executing_state());
+        let places = [state.machine[0], state.skip[0]];
+        let Pull::Item(_) = interpreter.next() else { panic!("the block closes") };
+        (places, next(&mut interpreter, text, 1000))
+    };
+    let mut at = [0.0; 8];
+    at[0] = 7.25;
+    let (places, second) = second_move(Answer::Stands(at, true));
+    assert_eq!(places, [7_250_000.0; 2]);
+    assert!(second.starts_with("2: Line { to: [8.25,"), "{second}");
+    let (_, second) = second_move(Answer::Stop);
+    assert!(second.starts_with("2: Line { to: [11.0,"), "without an answer it has gone to its end: {second}");
+}
