@@ -34,10 +34,12 @@ docs: cargo
 checks: cargo
 	python3 ci/house.py
 	python3 ci/licences.py
+	python3 ci/pages.py --check
 	python3 -m unittest discover -q ci
 
 bench: build ## measure: speed beside a peer, memory; prints command, sample, figure, limit
 	python3 benches/check_surface.py
+	python3 benches/drill.py
 	python3 benches/macro_loop.py
 	python3 benches/memory.py
 
@@ -45,9 +47,13 @@ fuzz: cargo ## throw random programs at the reader and at the whole interpreter,
 	ci/fuzz.sh read
 	ci/fuzz.sh interpret
 	ci/fuzz.sh macros
+	ci/fuzz.sh tape
 
 cases: cargo ## write what the program now prints into cases/; the diff is the review
 	UPDATE_CASES=1 cargo test -p cyclestart --test cases --locked
+
+pages: ## write the programmer's pages docs/*/ from tables and cases
+	python3 ci/pages.py
 
 clean: ## remove all that was built
 	rm -rf target run fuzz/target fuzz/corpus fuzz/artifacts
@@ -55,4 +61,4 @@ clean: ## remove all that was built
 cargo:
 	@command -v cargo >/dev/null || { echo "Rust's cargo is missing: rustup.rs says how to install it (one line)."; exit 1; }
 
-.PHONY: help run build test format lint unit docs checks bench fuzz cases clean cargo
+.PHONY: help run build test format lint unit docs checks bench fuzz cases pages clean cargo

@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+"""Makes the programmer's pages docs/CONTROL/*.md from the tables of controls/ and the cases.
+
+    ci/pages.py            writes them
+    ci/pages.py --check    says which would change, and exits with 1 if any would
+"""
+import json
+import sys
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+CERTAINTY = {
+    "S": "stated in the MX1 manual", "J": "J50M manual", "P": "PC NC manual", "L": "LX3 manual", "H": "Haas manual",
+    "Y": "known of the family, no page seen", "F": "assumed: Fanuc practice", "D": "decided here",
+}
+SHOWN = 40  # lines of a result
+
+
+class Control:
+    """The tables and cases of one control."""
+
+    def __init__(self, name: str) -> None:
+        folder = ROOT / "controls" / name
+        read = lambda file: tomllib.loads((folder / f"{file}.toml").read_text(encoding="utf-8"))
+        self.name, self.head = name, read("control")
+        self.g = {f"G{row['g']:02}": row for row in read("g_codes")["code"]}
+        self.m = {f"M{row['m']:02}": row for row in read("m_codes")["code"]}
+        self.alarms = {row["name"]: row for row in read("alarms")["alarm"]}
+        self.options = {f"option {row['name']}": row for row in self.head["option"]}
+        self.policies = {row["name"]: row for row in self.head["policy"]}
+        self.groups = {row["number"]: row for row in self.head["group"]}
+        self.pages = read("pages")["page"]
+        corpus = ROOT / "cases" / name
+        rules = tomllib.loads((corpus / "rules.toml").read_text(encoding="utf-8"))
+        self.rules = {row["name"]: row["text"] for kind in ("rule", "table", "program") for row in rules.get(kind, [])}
+        self.cases = {
+            case.parent.name: tomllib.loads(case.read_text(encoding="utf-8")) for case in sorted(corpus.glob("*/case.toml"))
+        }
+
+
+def table(head: list[str], rows: list[list[str]]) -> list[str]:
+    if not rows:
+        return []
+    cell = lambda text: str(text).replace("|", "\\|").replace("\n", " ")
+    line = lambda cells: "| " + " | ".join(cell(one) for one in cells) + " |"
+    return [line(head), line(["---"] * len(head)), *map(line, rows), ""]
+
+
+def certainty(row: dict) -> str:
+    return f"{row['certainty']} ({CERTAINTY[row['certainty']]})"
+
+
+def codes(control: Control, covers: list[str]) -> list[str]:
+    rows = []
+    for name in covers:
+        if row := control.g.get(name):
+            group = row.get("group")
+            kind = "one-shot" if row.get("one_shot") else f"modal, group {group:02}"
+            state = ""
+            if group:
+                rule = control.groups[group]
+                state = "in force at power-on" if rule["power_on"] == name else ""
+                if "power_on_parameter" in rule:
+                    state = f"power-on by #{rule['power_on_parameter'].get('number', '')}"
+            division = row.get("option") or row.get("division", "basic")
+            rows.append([name, row["text"], kind, division, state, certainty(row), row["source"]])
+        elif row := control.m.get(name):
+            out = "goes to the machine" if row["to_machine"] else "inside the control"
+            rows.append([name, row["text"], out, "", "", certainty(row), row["source"]])
+    return table(["code", "what it does", "kind", "belongs to", "state", "certainty", "source"], rows)
+
+
+def silent(control: Control, covers: list[str]) -> list[str]:
+    rows, seen = [], set()
+    for name in covers:
+        policy = name.removeprefix("policy ").split("=")[0]
+        if name.startswith("policy ") and policy not in seen:
+            seen.add(policy)
+            row = control.policies[policy]
+            values = ", ".join(f"**{value}**" if value == row["default"] else value for value in row["values"])
+            rows.append([f"`{policy}`", values, row["text"], certainty(row)])
+    return table(["policy", "values (default bold)", "where the maker's text is silent", "certainty"], rows)
+
+
+def short(event: dict) -> str:
+    """An event of the trace in a few words."""
+    kind, parts = event["event"], []
+    if "to" in event:
+        parts.append(" ".join(f"{axis.upper()}{value:g}" for axis, value in event["to"].items()))
+    for key, text in (("f", "F{:g}"), ("sweep", "sweep {:g} deg"), ("seconds", "{:g} s"), ("revolutions", "{:g} turns")):
+        if key in event:
+            parts.append(text.format(event[key]))
+    for key in ("code", "kind", "what", "value", "name", "text"):
+        if key in event:
+            value = event[key]
+            parts.append(value if isinstance(value, str) else json.dumps(value))
+    return f"line {event['line']}: {kind} {', '.join(parts)}" if "line" in event else f"{kind} {', '.join(parts)}"
+
+
+def example(control: Control, name: str) -> list[str]:
+    folder = ROOT / "cases" / control.name / name
+    case = control.cases[name]
+    program = next((folder / file for file in ("in.nc", "a.nc") if (folder / file).is_file()), None)
+    lines = ["## Example", "", f"{case['why'][0].upper()}{case['why'][1:].rstrip('.')}.", ""]
+    if arguments := case.get("arguments"):
+        lines += ["Set up with `" + " ".join(arguments) + "`.", ""]
+    if program:
+        lines += ["```text", program.read_text(encoding="latin-1").replace("\r", "").rstrip(), "```", ""]
+    out = folder / "out.trace"
+    if out.is_file() and case.get("run", "trace").startswith(("trace", "operate")):
+        events = [json.loads(line) for line in out.read_text(encoding="utf-8").splitlines()]
+        told = [short(event) for event in events if event["event"] not in ("start", "reset")]
+        more = [f"… and {len(told) - SHOWN} more"] if len(told) > SHOWN else []
+        lines += ["What the control does (machine coordinates):", "", "```text", *told[:SHOWN], *more, "```", ""]
+    return lines
+
+
+def by_control(controls: list[Control], page: dict, own: Control) -> list[str]:
+    """The same meaning on every control."""
+    rows = []
+    for name in page["covers"]:
+        if not (row := own.g.get(name)):
+            continue
+        cells = []
+        for control in controls:
+            same = [code for code, other in control.g.items() if other["meaning"] == row["meaning"]]
+            same = [code for code in same if control.g[code].get("division") != "sibling"] if len(same) > 1 else same
+            cells.append(", ".join(same) or "none")
+        rows.append([row["meaning"], *cells])
+    return table(["meaning", *(control.head["title"] for control in controls)], rows)
+
+
+def page_text(controls: list[Control], control: Control, page: dict) -> str:
+    covers = page["covers"]
+    lines = [f"# {page['title']}", "", f"{control.head['title']}. Made by `ci/pages.py` from the control's tables and cases.", ""]
+    if page["form"]:
+        lines += ["```text", *page["form"], "```", ""]
+    lines += [page["text"], ""]
+    lines += table(["word", "says"], [word.split(": ", 1) for word in page["words"]])
+    if found := codes(control, covers):
+        lines += ["## Codes", "", *found]
+    if page["example"]:
+        lines += example(control, page["example"])
+    rules = [[name, control.rules[name]] for name in covers if name in control.rules]
+    if rules:
+        lines += ["## Rules", "", *table(["rule", "says"], rules)]
+    options = [[name.removeprefix("option "), row["text"], "yes" if row["default"] else "no", certainty(row)]
+               for name in covers if (row := control.options.get(name))]
+    if options:
+        lines += ["## Options", "", *table(["option", "what it is", "fitted as it comes", "certainty"], options)]
+    if found := silent(control, covers):
+        lines += ["## Where the manual is silent", "", *found]
+    alarms = [[name, row.get("number", ""), row["text"], certainty(row)] for name in covers if (row := control.alarms.get(name))]
+    if alarms:
+        lines += ["## Alarms", "", *table(["alarm", "number", "text", "certainty"], alarms)]
+    if found := by_control(controls, page, control):
+        lines += ["## By control", "", *found]
+    cases = [[f"[{name}](../../cases/{control.name}/{name})", case["why"], case["certainty"]]
+             for name, case in control.cases.items()
+             if "waits" not in case and set(case["covers"]) & set(covers)]
+    waiting = [name for name, case in control.cases.items() if "waits" in case and set(case["covers"]) & set(covers)]
+    lines += ["## Cases", "", "Each is a test: its folder holds the program and exactly what the control does.", ""]
+    lines += table(["case", "what it shows", "certainty"], cases)
+    if waiting:
+        lines += ["Not built yet: " + ", ".join(waiting) + ".", ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def index(control: Control) -> str:
+    lines = [f"# {control.head['title']}: the programmer's pages", "", control.head["summary"][0].upper() + control.head["summary"][1:] + ".", "",
+             "Every page is made from the control's tables and cases by `ci/pages.py`.", ""]
+    coded = lambda page: ", ".join(name for name in page["covers"] if name in control.g or name in control.m)
+    lines += table(["page", "codes"], [[f"[{page['title']}]({page['name']}.md)", coded(page)] for page in control.pages])
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def main() -> int:
+    check = "--check" in sys.argv[1:]
+    folders = sorted(path.parent for path in ROOT.glob("controls/*/pages.toml"))
+    controls = [Control(folder.name) for folder in folders]
+    faults = []
+    for control in controls:
+        missing = [code for code, row in {**control.g, **control.m}.items()
+                   if row.get("division") != "sibling" and not any(code in page["covers"] for page in control.pages)]
+        faults += [f"{control.name}: {code} stands on no page" for code in missing]
+        wanted = {f"{page['name']}.md": page_text(controls, control, page) for page in control.pages}
+        wanted["README.md"] = index(control)
+        folder = ROOT / "docs" / control.name
+        folder.mkdir(parents=True, exist_ok=True)
+        old = {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.md")}
+        for name in sorted(old.keys() | wanted.keys()):
+            if old.get(name) == wanted.get(name):
+                continue
+            if check:
+                faults.append(f"docs/{control.name}/{name} is not what the tables say: run ci/pages.py")
+            elif name in wanted:
+                (folder / name).write_text(wanted[name], encoding="utf-8")
+            else:
+                (folder / name).unlink()
+    for fault in faults:
+        print(fault, file=sys.stderr)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
