@@ -5,6 +5,7 @@
 mod alarms;
 mod codes;
 mod settings;
+mod station;
 mod user_macro;
 
 use data::{DataError, Document, Table};
@@ -12,7 +13,8 @@ use syntax::{Colon, Grammar, LowerCase, Semicolon};
 
 use crate::control::{Control, FeedSettings, Group, GroupRule, Grouping, MOST_GROUPS, Roles, TapeRules, Tolerances};
 use crate::meaning::Meaning;
-use crate::row::{Certainty, GCode, Origin, ParameterRow};
+use crate::row::{Certainty, GCode, OptionRow, Origin, ParameterRow};
+use crate::station::StationTable;
 
 /// The text of a control's files.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -215,8 +217,9 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     let addresses = files.read("addresses.toml", settings::addresses).map_err(&mut keep).ok();
     let m_codes = files.read("m_codes.toml", codes::m_codes).map_err(&mut keep).ok();
     let user_macro = files.read("macro.toml", user_macro::user_macro).map_err(&mut keep).ok();
-    let (Some(head), Some(parameters), Some(addresses), Some((m_ranges, m_codes)), Some(user_macro)) =
-        (head, parameters, addresses, m_codes, user_macro)
+    let station = files.read("station.toml", station::station).map_err(&mut keep).ok();
+    let (Some(head), Some(parameters), Some(addresses), Some((m_ranges, m_codes)), Some(user_macro), Some(station)) =
+        (head, parameters, addresses, m_codes, user_macro, station)
     else {
         return Err(errors);
     };
@@ -255,6 +258,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         limit: parameter_if_any(&parameters, "cutting feed limit"),
         dwell: parameter_if_any(&parameters, "dwell in revolutions"),
     };
+    let station = resolve_station(files, station, &parameters, &head.options)?;
     Ok(Control {
         name: head.name,
         title: head.title,
@@ -290,6 +294,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         options: head.options,
         policies: head.policies,
         parameters,
+        station,
         user_macro,
         alarms,
         sentences,
@@ -369,10 +374,38 @@ fn resolve_groups(
             name: draft.name.clone(),
             power_on: rule(&draft.power_on)?,
             reset: rule(&draft.reset)?,
+            emergency_stop: rule(&draft.emergency_stop)?,
+            program_end: rule(&draft.program_end)?,
+            stored: draft.stored,
             origin: draft.origin.clone(),
         });
     }
     Ok(groups)
+}
+
+fn resolve_station(
+    files: &ControlFiles,
+    draft: station::StationDraft,
+    parameters: &[ParameterRow],
+    options: &[OptionRow],
+) -> Result<StationTable, Vec<DataError>> {
+    if let Some(name) = draft
+        .states
+        .iter()
+        .filter_map(|row| row.kept_by.as_ref())
+        .find(|name| !options.iter().any(|option| option.name == **name))
+    {
+        return Err(refuse(files, "station.toml", format!("there is no option `{name}` in control.toml")));
+    }
+    let [jog_speed, dry_run_rapid, lowest_rapid] = &draft.parameters;
+    Ok(StationTable {
+        jog_speed: parameter_index(files, parameters, jog_speed)?,
+        dry_run_rapid: parameter_index(files, parameters, dry_run_rapid)?,
+        lowest_rapid: parameter_index(files, parameters, lowest_rapid)?,
+        modes: draft.modes,
+        overrides: draft.overrides,
+        states: draft.states,
+    })
 }
 
 fn find_roles(files: &ControlFiles, groups: &[Group], rows: &[GCode]) -> Result<Roles, Vec<DataError>> {

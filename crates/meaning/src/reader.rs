@@ -182,6 +182,18 @@ impl Reader {
         }
     }
 
+    /// Reads on in another main program, where it was left.
+    pub fn go_back_to(&mut self, frame: Frame) {
+        self.calls.frames.clear();
+        self.calls.frames.push(frame);
+        let cursor = frame.cursor;
+        let (begun, opened) = (frame.begun, frame.opened);
+        self.rewind();
+        if let Some(main) = self.calls.frames.first_mut() {
+            (main.cursor, main.begun, main.opened) = (cursor, begun, opened);
+        }
+    }
+
     /// Reads on after a program's end.
     pub fn go_on(&mut self) {
         self.ended = false;
@@ -490,6 +502,7 @@ impl Reader {
         command.finish = Finish::Next;
         command.stops_reading = false;
         command.absolute = AxisSet::NONE;
+        command.returned = AxisSet::NONE;
         command.from_unknown = !self.state.unknown.axes.is_empty();
     }
 
@@ -696,6 +709,7 @@ pub(crate) fn empty_command(state: &State) -> Command {
         plane: AxisSet::NONE,
         axis_words: [syntax::Extent::default(); AXES],
         absolute: AxisSet::NONE,
+        returned: AxisSet::NONE,
         stroke_check: false,
         from_unknown: false,
         frame: Frame::default(),

@@ -122,14 +122,12 @@ impl Setting {
         transform.unscale(axis, transform.reflect(axis, machine - length) + length - zero)
     }
 
-    /// After a reset: what is no longer in force has no effect.
-    pub fn end_transform(&self, state: &mut State) {
+    /// After a reset: a scale that is no longer in force has no effect.
+    pub fn end_scaling(&self, state: &mut State) {
         let scaling = self.control.roles.scaling.and_then(|group| self.control.in_force(&state.groups, group));
         if scaling != Some(Meaning::ScalingOn) {
             state.transform.scaled = AxisSet::NONE;
         }
-        state.transform.mirror = false;
-        state.transform.mirrored = AxisSet::NONE;
     }
 }
 
