@@ -80,7 +80,8 @@ impl<L: Library> Session<L> {
             let events = &mut self.events;
             return self.machine.execute(&self.motion.current(), &mut |event| events.push_back(event));
         };
-        let timed = self.motion.current();
+        // The way back to the reference point is that of the axes, any other takes the time of the counted one.
+        let timed = if self.returned().is_empty() { self.motion.current() } else { self.motion.time(&shaped) };
         let length = match &shaped.shape {
             Shape::Rapid { from, to, .. } | Shape::Line { from, to, .. } if from == to => 0.0,
             _ => timed.length,

@@ -79,7 +79,7 @@ impl<L: Library> Session<L> {
     }
 
     /// Axes that the block returns to their reference point: its last move leads there.
-    fn returned(&self) -> AxisSet {
+    pub(super) fn returned(&self) -> AxisSet {
         self.interpreter().executing().map_or(AxisSet::NONE, |command| command.returned)
     }
 
