@@ -231,6 +231,10 @@ conditions! {
     // The operator's buttons.
     /// The emergency stop button is pressed.
     EmergencyStop = "emergency-stop",
+    /// No more programs can be registered. Values: programs allowed.
+    MemoryFull = "memory-full",
+    /// A program that is protected is to be loaded. Values: its number.
+    ProgramProtected = "program-protected",
 
     // The machine.
     /// The move leaves the axis' travel. Values: where it would go, lower limit, upper limit.

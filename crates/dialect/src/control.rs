@@ -246,7 +246,8 @@ impl Control {
         let index = self.options.iter().position(|row| row.name == option);
         let gives = |code: &GCode| index.is_some_and(|index| code.division == Division::Option(index as u8));
         let keeps = self.station.states.iter().any(|row| row.kept_by.as_deref() == Some(option));
-        keeps || ASKED.contains(&option) || FROM_AXES.contains(&option) || self.g_codes.iter().any(gives)
+        let limits = index.is_some() && self.station.more_programs == index;
+        limits || keeps || ASKED.contains(&option) || FROM_AXES.contains(&option) || self.g_codes.iter().any(gives)
     }
 
     /// A G row's name as programs write it: `G01`.

@@ -112,6 +112,19 @@ impl Fitting {
         control.options.iter().zip(&self.fitted).any(|(row, &fitted)| fitted && row.name == name)
     }
 
+    /// Most programs that memory takes; `None` for no limit.
+    pub fn most_programs(&self, control: &Control) -> Option<usize> {
+        let more = control.station.more_programs.and_then(|index| self.fitted.get(index)).copied().unwrap_or(false);
+        (!more).then_some(control.station.most_programs)
+    }
+
+    /// True if a setting protects the program of this number.
+    pub fn protects(&self, control: &Control, number: u32) -> bool {
+        let bits = self.bits(control.station.protection);
+        let mut ranges = control.station.protected.iter().enumerate();
+        ranges.any(|(bit, [low, high])| bits >> bit & 1 == 1 && (*low..=*high).contains(&number))
+    }
+
     /// True if a control of this fitting has a code of this division.
     pub fn has(&self, division: Division) -> bool {
         match division {

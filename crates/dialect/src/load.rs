@@ -13,8 +13,7 @@ use syntax::{Colon, Grammar, LowerCase, Semicolon};
 
 use crate::control::{Control, FeedSettings, Group, GroupRule, Grouping, MOST_GROUPS, Roles, TapeRules, Tolerances};
 use crate::meaning::Meaning;
-use crate::row::{Certainty, GCode, OptionRow, Origin, ParameterRow};
-use crate::station::StationTable;
+use crate::row::{Certainty, GCode, Origin, ParameterRow};
 
 /// The text of a control's files.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -258,7 +257,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         limit: parameter_if_any(&parameters, "cutting feed limit"),
         dwell: parameter_if_any(&parameters, "dwell in revolutions"),
     };
-    let station = resolve_station(files, station, &parameters, &head.options)?;
+    let station = station::resolve(files, station, &parameters, &head.options)?;
     Ok(Control {
         name: head.name,
         title: head.title,
@@ -381,31 +380,6 @@ fn resolve_groups(
         });
     }
     Ok(groups)
-}
-
-fn resolve_station(
-    files: &ControlFiles,
-    draft: station::StationDraft,
-    parameters: &[ParameterRow],
-    options: &[OptionRow],
-) -> Result<StationTable, Vec<DataError>> {
-    if let Some(name) = draft
-        .states
-        .iter()
-        .filter_map(|row| row.kept_by.as_ref())
-        .find(|name| !options.iter().any(|option| option.name == **name))
-    {
-        return Err(refuse(files, "station.toml", format!("there is no option `{name}` in control.toml")));
-    }
-    let [jog_speed, dry_run_rapid, lowest_rapid] = &draft.parameters;
-    Ok(StationTable {
-        jog_speed: parameter_index(files, parameters, jog_speed)?,
-        dry_run_rapid: parameter_index(files, parameters, dry_run_rapid)?,
-        lowest_rapid: parameter_index(files, parameters, lowest_rapid)?,
-        modes: draft.modes,
-        overrides: draft.overrides,
-        states: draft.states,
-    })
 }
 
 fn find_roles(files: &ControlFiles, groups: &[Group], rows: &[GCode]) -> Result<Roles, Vec<DataError>> {

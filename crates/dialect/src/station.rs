@@ -44,6 +44,14 @@ pub struct StationTable {
     pub dry_run_rapid: usize,
     /// Index of the parameter with the rate of the lowest step of the rapid override, mm/min.
     pub lowest_rapid: usize,
+    /// Programs that can be registered.
+    pub most_programs: usize,
+    /// Index of the option with which there is no such limit.
+    pub more_programs: Option<usize>,
+    /// Index of the parameter whose bits protect ranges of program numbers.
+    pub protection: usize,
+    /// Those ranges, the first for D0.
+    pub protected: Vec<[u32; 2]>,
     /// What becomes of every state that is no modal group.
     pub states: Vec<StateRow>,
 }

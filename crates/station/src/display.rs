@@ -160,6 +160,7 @@ fn machine<L: Library>(session: &Session<L>) -> Value {
     Value::object([
         ("name", Value::text(&session.configuration().machine.name)),
         ("position", axes(session, session.position())),
+        ("reference", reference(session)),
         ("emergency_stop", Value::Truth(session.emergency_stop())),
         (
             "override",
@@ -170,6 +171,14 @@ fn machine<L: Library>(session: &Session<L>) -> Value {
             ]),
         ),
     ])
+}
+
+/// Which axes have been returned to their reference point.
+fn reference<L: Library>(session: &Session<L>) -> Value {
+    let established = session.interpreter().executing_state().reference.established;
+    let axes = session.configuration().machine.axes.iter().take(AXES).enumerate();
+    let letter = |letter: u8| char::from(letter.to_ascii_lowercase()).to_string();
+    Value::Object(axes.map(|(index, axis)| (letter(axis.letter), Value::Truth(established.has(index)))).collect())
 }
 
 fn work<L: Library>(session: &Session<L>, system: &str) -> Result<Value, String> {

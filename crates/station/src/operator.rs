@@ -4,9 +4,9 @@ mod table;
 mod typing;
 mod write;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use base::SourceId;
+use base::{Condition, SourceId};
 use dialect::ModeRow;
 use machine::{Event, EventKind};
 use syntax::Cursor;
@@ -218,6 +218,10 @@ impl<L: Shelf> Operator<L> {
             None => {}
         }
         names.extend(found.into_iter().map(|(number, head)| (format!("O{number}"), head)));
+        if let Some((condition, value)) = self.load_refusal(&names) {
+            self.session.raise_at_panel(condition, [value, 0.0, 0.0]);
+            return Ok(());
+        }
         let mut reloaded = false;
         for (name, head) in names.into_iter().rev() {
             if let Some(number) = name.strip_prefix('O').and_then(|digits| digits.parse().ok()) {
@@ -232,6 +236,20 @@ impl<L: Shelf> Operator<L> {
             let _ = self.select(&name);
         }
         Ok(())
+    }
+
+    /// Why memory does not take these programs, if it does not, and the number that says so.
+    fn load_refusal(&self, names: &[(String, Cursor)]) -> Option<(Condition, f64)> {
+        let interpreter = self.session.interpreter();
+        let (control, fitting) = (interpreter.control(), interpreter.fitting());
+        let numbers = names.iter().filter_map(|(name, _)| name.strip_prefix('O')?.parse::<u32>().ok());
+        if let Some(number) = numbers.into_iter().find(|&number| fitting.protects(control, number)) {
+            return Some((Condition::ProgramProtected, f64::from(number)));
+        }
+        let more: BTreeSet<&str> =
+            names.iter().map(|(name, _)| name.as_str()).filter(|name| !self.programs.contains_key(*name)).collect();
+        let most = fitting.most_programs(control)?;
+        (self.programs.len() + more.len() > most).then_some((Condition::MemoryFull, most as f64))
     }
 
     /// Hands out what an action has brought about at once, without letting time pass.

@@ -74,8 +74,8 @@ fn write(said: &Said, session: &mut Session<Texts>, tracer: &mut Tracer, out: &m
                 } else {
                     show_alarm(alarm, &control, &machine, session.library_mut())
                 };
-                // The operator's own button is no fault of a program.
-                if alarm.condition != Condition::EmergencyStop {
+                // What stands in no block, or comes of the operator's own button, has no line to show.
+                if alarm.place.line > 0 && alarm.condition != Condition::EmergencyStop {
                     say(&render(&found, &excerpt, Format::Text { colour: colour_err() }));
                 }
                 diagnostic = Some(found);

@@ -1,6 +1,6 @@
 //! One shape after the other: codes held until the block is sure, moves, stops, alarms, the program's end.
 
-use base::{Alarm, AxisSet, Place, Seconds};
+use base::{Alarm, AxisSet, Condition, Place, Seconds};
 use dialect::{MMeaning, Occasion};
 use machine::{EventKind, Machine, Refusal, ResetCause, StopCause};
 use meaning::{Close, CodeLine, CodeOut, EndKind, State, StopKind};
@@ -143,6 +143,12 @@ impl<L: Library> Session<L> {
             alarm.span = command.axis_span(usize::from(axis));
         }
         alarm
+    }
+
+    /// An alarm that no block of a program raises.
+    pub fn raise_at_panel(&mut self, condition: Condition, values: [f64; 3]) {
+        let place = Place::default();
+        self.raise(Alarm::new(condition, place, place.block).with(values));
     }
 
     pub(super) fn raise(&mut self, alarm: Alarm) {

@@ -13,6 +13,9 @@ use syntax::Cursor;
 /// Positions are exact to less than this, mm.
 pub const EXACTNESS_MM: f64 = 1e-9;
 
+/// Alarms that stand in no block.
+const FROM_THE_PANEL: &[Condition] = &[Condition::EmergencyStop, Condition::MemoryFull, Condition::ProgramProtected];
+
 /// Times in a row that the same bytes may be asked for before it counts as standing still.
 const MOST_AGAIN: u32 = 100;
 
@@ -179,7 +182,7 @@ impl Watch {
         let may_be_placeless =
             matches!(event.kind, EventKind::Start(_) | EventKind::BlockDone | EventKind::Reset { .. })
                 || matches!(event.kind, EventKind::Stop(StopCause::FeedHold))
-                || matches!(event.kind, EventKind::Alarm(alarm) if alarm.condition == Condition::EmergencyStop);
+                || matches!(event.kind, EventKind::Alarm(alarm) if FROM_THE_PANEL.contains(&alarm.condition));
         let placeless = may_be_placeless && event.place.line == 0;
         if !placeless {
             self.check_place(event, session);
