@@ -44,6 +44,11 @@ impl Default for Transform {
 }
 
 impl Transform {
+    /// True while mirror image is on, for whichever axes.
+    pub const fn is_mirror_on(&self) -> bool {
+        self.mirror
+    }
+
     /// True if words mean what they say.
     pub const fn is_plain(&self) -> bool {
         self.scaled.is_empty() && self.mirrored.is_empty()

@@ -1,7 +1,8 @@
 //! The panel's displays as values: what a script's `show` prints and a panel's pages draw.
 
 use base::{AXES, Alarm, Diagnostic, Point};
-use dialect::{GroupCodes, Meaning};
+use dialect::{GroupCodes, MMeaning, Meaning};
+use meaning::Corner;
 
 use crate::action::Show;
 use crate::library::Library;
@@ -88,6 +89,11 @@ impl<L: Library> Operator<L> {
         let state = session.interpreter().executing_state();
         let typed = String::from_utf8_lossy(session.typed_blocks());
         let whole = |number: u32| Value::Number(f64::from(number));
+        // A state of the control by the M code that commands it; a control without such codes shows nothing.
+        let mode = |on: bool, codes: [MMeaning; 2]| {
+            let row = session.configuration().control.m_of(codes[usize::from(on)]);
+            row.map_or(Value::Null, |row| Value::Text(format!("M{:02}", row.code)))
+        };
         Value::object([
             ("name", Value::text_or_null(self.program_name())),
             ("line", Value::Number(session.place().line as f64)),
@@ -97,6 +103,10 @@ impl<L: Library> Operator<L> {
             ("b", whole(state.index)),
             ("h", whole(state.h)),
             ("d", whole(state.d)),
+            ("interrupt", mode(state.interrupt.is_some(), [MMeaning::InterruptOff, MMeaning::InterruptOn])),
+            ("buffering", mode(state.buffering, [MMeaning::BufferingOff, MMeaning::BufferingOn])),
+            ("mirror", mode(state.transform.is_mirror_on(), [MMeaning::MirrorOff, MMeaning::MirrorOn])),
+            ("corner", mode(state.corner == Corner::Arc, [MMeaning::CornerIntersection, MMeaning::CornerArc])),
             ("typed", Value::List(typed.lines().map(Value::text).collect())),
             ("memory", Value::List(self.programs().map(Value::text).collect())),
         ])
