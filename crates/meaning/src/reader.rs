@@ -82,6 +82,8 @@ pub(crate) struct Reader {
     jumps: u64,
     /// Statements since the last move, dwell or stop.
     pub(crate) statements: u64,
+    /// A tape is read on behind the next end of block: what stands before it counts as its label.
+    pub passes_over: bool,
     /// Something has moved, dwelt or stopped since the last jump back.
     pub(crate) moved: bool,
     pub(crate) repetition: Repetition,
@@ -120,6 +122,7 @@ impl Reader {
             ended: true,
             jumps: 0,
             statements: 0,
+            passes_over: false,
             moved: false,
             repetition: Repetition::default(),
             asks_again: None,
@@ -146,6 +149,7 @@ impl Reader {
             main.begun = false;
             main.opened = false;
         }
+        self.passes_over = false;
         self.search = None;
         self.blocks = 0;
         self.ended = false;
@@ -262,6 +266,9 @@ impl Reader {
                     },
                 },
             };
+            if self.passes_label(&frame) {
+                continue;
+            }
             if unsound.is_none() && self.closes(&frame) {
                 return self.end_of_text(&frame, command);
             }

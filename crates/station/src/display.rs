@@ -107,6 +107,7 @@ impl<L: Library> Operator<L> {
             ("buffering", mode(state.buffering, [MMeaning::BufferingOff, MMeaning::BufferingOn])),
             ("mirror", mode(state.transform.is_mirror_on(), [MMeaning::MirrorOff, MMeaning::MirrorOn])),
             ("corner", mode(state.corner == Corner::Arc, [MMeaning::CornerIntersection, MMeaning::CornerArc])),
+            ("label_skip", Value::Truth(session.label_skip())),
             ("typed", Value::List(typed.lines().map(Value::text).collect())),
             ("memory", Value::List(self.programs().map(Value::text).collect())),
         ])

@@ -197,7 +197,10 @@ impl<L: Shelf> Operator<L> {
                 return Err("no program is selected".to_owned());
             }
             self.session.come_back();
-            self.session.start();
+            match begins {
+                Begins::Tape => self.session.start_tape(),
+                _ => self.session.start(),
+            }
         }
         Ok(())
     }

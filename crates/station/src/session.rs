@@ -82,6 +82,8 @@ pub struct Session<L> {
     /// By FEED HOLD.
     feed_held: bool,
     powered: bool,
+    /// The next reading of a tape begins behind an end of block.
+    label_skip: bool,
     /// The emergency stop button is pressed.
     emergency: bool,
     alarm: Option<Alarm>,
@@ -137,6 +139,7 @@ impl<L: Library> Session<L> {
             stopped: false,
             feed_held: false,
             powered: true,
+            label_skip: true,
             emergency: false,
             alarm: None,
             ended: true,
@@ -240,6 +243,17 @@ impl<L: Library> Session<L> {
         self.rewound = false;
         self.stopped = false;
         self.feed_held = false;
+    }
+
+    /// CYCLE START in tape mode: as [`Session::start`], and a tape that stands in its middle is read on behind the next
+    /// end of block while LABEL SKIP is on.
+    pub fn start_tape(&mut self) {
+        let skips = self.ended && !self.rewound && self.label_skip;
+        self.start();
+        self.label_skip = false;
+        if skips {
+            self.interpreter_mut().skip_label();
+        }
     }
 
     /// The program from its head once more, everything else as it stands.

@@ -60,6 +60,12 @@ impl Interpreter {
         self.stored = groups;
     }
 
+    /// The tape is read on behind the next end of block, as a control does that looks for the end of a label. A program
+    /// that is no tape, or stands at its head, begins where it begins.
+    pub fn skip_label(&mut self) {
+        self.reader.passes_over = true;
+    }
+
     /// Where the main program goes on, to come back to it after another.
     pub fn pointer(&self) -> Option<Pointer> {
         self.reader.calls.frames.first().copied().map(Pointer)

@@ -138,6 +138,8 @@ pub(super) fn refusal(action: &Action, situation: Situation) -> Answer {
 pub(super) enum Begins {
     /// The selected program.
     Memory,
+    /// The tape of the selected program.
+    Tape,
     /// What has been typed.
     Typed,
 }
@@ -147,7 +149,7 @@ pub(super) fn begins(mode: &ModeRow) -> Result<Begins, String> {
     match mode.kind {
         ModeKind::Memory => Ok(Begins::Memory),
         ModeKind::Mdi => Ok(Begins::Typed),
-        ModeKind::Tape => Err("no tape is in the reader: tape operation is not built yet".to_owned()),
+        ModeKind::Tape => Ok(Begins::Tape),
         ModeKind::Edit | ModeKind::Manual => Err(format!("CYCLE START does nothing in mode {}", mode.name)),
     }
 }

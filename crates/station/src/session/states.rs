@@ -1,7 +1,7 @@
 //! What brings the control into another state than a program does: power, RESET, emergency stop, the end of a program.
 
 use base::{AXES, Alarm, Condition, Place};
-use dialect::Occasion;
+use dialect::{Fate, Occasion, StateItem};
 use machine::{EventKind, Machine, ResetCause, StopCause};
 
 use super::Session;
@@ -55,6 +55,7 @@ impl<L: Library> Session<L> {
         self.motion.upstream.stand_at(&position);
         self.interpreter_mut().reset(Occasion::PowerOn, &position, false);
         self.rewound = true;
+        self.look_for_label(Occasion::PowerOn);
         self.pass_overrides();
         if self.emergency {
             let alarm = Alarm::new(Condition::EmergencyStop, Place::default(), Place::default().block);
@@ -116,9 +117,22 @@ impl<L: Library> Session<L> {
             self.interpreter_mut().rewind();
             self.rewound = true;
         }
+        self.look_for_label(occasion);
         self.alarm = None;
         let groups = self.interpreter().read_state().groups;
         self.tell(place, EventKind::Reset { cause, groups });
+    }
+
+    /// LABEL SKIP, as the table of states says.
+    fn look_for_label(&mut self, occasion: Occasion) {
+        let interpreter = self.interpreter();
+        let fate = interpreter.fitting().fate(interpreter.control(), StateItem::LabelSkip, occasion);
+        self.label_skip |= fate == Fate::Initial;
+    }
+
+    /// True while LABEL SKIP is on.
+    pub fn label_skip(&self) -> bool {
+        self.label_skip
     }
 
     /// The counters of all axes are set to where the axes are.
