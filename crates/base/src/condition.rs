@@ -228,6 +228,14 @@ conditions! {
     /// G50 or G51 beside another G code, or G50 beside a way to go.
     ScalingNotAlone = "scaling-not-alone",
 
+    // The operator's buttons.
+    /// The emergency stop button is pressed.
+    EmergencyStop = "emergency-stop",
+    /// No more programs can be registered. Values: programs allowed.
+    MemoryFull = "memory-full",
+    /// A program that is protected is to be loaded. Values: its number.
+    ProgramProtected = "program-protected",
+
     // The machine.
     /// The move leaves the axis' travel. Values: where it would go, lower limit, upper limit.
     TravelExceeded = "travel-exceeded",

@@ -71,7 +71,7 @@ pub struct SettingArguments {
     /// One parameter or one bit of it, such as 6005=0b100 or 6005.2=1
     #[arg(long, value_name = "NAME=VALUE")]
     pub parameter: Vec<String>,
-    /// A switch that is on: optional-stop, block-delete[=n], single-block
+    /// A switch that is on: optional-stop, block-delete[=n], single-block, dry-run, machine-lock, display-lock, aux-lock, z-cancel, manual-absolute
     #[arg(long, value_name = "NAME")]
     pub switch: Vec<String>,
     /// Where subprograms are looked up after the file itself and its own folder

@@ -159,13 +159,8 @@ pub fn parameter(text: &str) -> Result<ParameterSetting, Failure> {
 /// `31=10.0`; with one common memory `H31` and `D31` name the same cell.
 fn offset(text: &str, common: bool) -> Result<(OffsetColumn, u32, f64), Failure> {
     let (name, value) = split("offset", text)?;
-    let (column, digits) = match (name.as_bytes().first(), common) {
-        (Some(b'H' | b'D'), true) => (OffsetColumn::Common, &name[1..]),
-        (Some(b'H'), false) => (OffsetColumn::Length, &name[1..]),
-        (Some(b'D'), false) => (OffsetColumn::Radius, &name[1..]),
-        _ => (OffsetColumn::Common, name),
-    };
-    let cell = digits.parse().map_err(|_| Failure::call(format!("--offset {text}: `{name}` is no offset number")))?;
+    let (column, cell) = station::split_offset(name).map_err(|why| Failure::call(format!("--offset {text}: {why}")))?;
+    let column = if common { OffsetColumn::Common } else { column };
     Ok((column, cell, number("offset", value)?))
 }
 

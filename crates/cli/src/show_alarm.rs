@@ -10,12 +10,29 @@ use crate::texts::Texts;
 /// Longest stretch of a line that is read to show it.
 const LINE: usize = 16 * 1024;
 
+/// The alarm about a block typed at the panel in words, and that block.
+pub fn show_typed_alarm(
+    alarm: &Alarm,
+    control: &Control,
+    machine: &MachineFile,
+    typed: &[u8],
+) -> (Diagnostic, Excerpt) {
+    let from = usize::try_from(alarm.place.line_start).unwrap_or(usize::MAX).min(typed.len());
+    show("MDI", alarm, control, machine, &typed[from..])
+}
+
 /// The alarm in words, and the line it stands on.
 pub fn show_alarm(alarm: &Alarm, control: &Control, machine: &MachineFile, texts: &mut Texts) -> (Diagnostic, Excerpt) {
     let place = &alarm.place;
     let column = place.column(alarm.span);
     let bytes = texts.excerpt(place.source, place.line_start, LINE.max((column as usize).min(1 << 20) + 256));
-    let excerpt = Excerpt::new(texts.name(place.source), place.line, &bytes, column, alarm.span.len);
+    show(texts.name(place.source), alarm, control, machine, &bytes)
+}
+
+/// `bytes` begin with the alarm's line.
+fn show(file: &str, alarm: &Alarm, control: &Control, machine: &MachineFile, bytes: &[u8]) -> (Diagnostic, Excerpt) {
+    let column = alarm.place.column(alarm.span);
+    let excerpt = Excerpt::new(file, alarm.place.line, bytes, column, alarm.span.len);
     let axis = alarm.axis.and_then(|axis| machine.axes.get(usize::from(axis)));
     let axis = axis.map(|axis| (char::from(axis.letter), axis.rotary));
     (control.diagnose(alarm, &excerpt.word, axis), excerpt)

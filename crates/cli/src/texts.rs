@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use base::SourceId;
 use meaning::WINDOW;
-use station::{Library, LibraryError};
+use station::{Library, LibraryError, Shelf};
 use tape::{Codes, Format, IGNORED, UNREADABLE, recognise};
 
 use crate::failure::Failure;
@@ -37,12 +37,14 @@ pub struct Texts {
     memory: BTreeMap<u32, SourceId>,
     /// The codes of the control's tapes, if it reads any.
     codes: Option<Codes>,
+    /// Where files to load are looked for that are not found from here.
+    beside: Option<PathBuf>,
 }
 
 impl Texts {
     /// No texts yet; subprograms are looked up in these folders, in their order.
     pub fn new(folders: Vec<PathBuf>) -> Texts {
-        Texts { sources: Vec::new(), folders, memory: BTreeMap::new(), codes: None }
+        Texts { sources: Vec::new(), folders, memory: BTreeMap::new(), codes: None, beside: None }
     }
 
     /// Images of tapes are shown in these codes.
@@ -52,14 +54,18 @@ impl Texts {
 
     /// Opens a program, `-` for standard input.
     pub fn open(&mut self, name: &str) -> Result<SourceId, Failure> {
+        self.opened(name).map_err(Failure::call)
+    }
+
+    fn opened(&mut self, name: &str) -> Result<SourceId, String> {
         if name == "-" {
             return self.spooled("<stdin>", Box::new(io::stdin()));
         }
-        let cannot = |error: io::Error| Failure::call(format!("cannot read {name}: {error}"));
+        let cannot = |error: io::Error| format!("cannot read {name}: {error}");
         let file = File::open(name).map_err(cannot)?;
         let facts = file.metadata().map_err(cannot)?;
         if facts.is_dir() {
-            return Err(Failure::call(format!("cannot read {name}: it is a folder")));
+            return Err(format!("cannot read {name}: it is a folder"));
         }
         if !facts.is_file() {
             // A pipe or device cannot be read at any place: it is a stream like standard input.
@@ -69,18 +75,18 @@ impl Texts {
     }
 
     /// A stream, which is written to a temporary file as far as it is read.
-    fn spooled(&mut self, name: &str, stream: Box<dyn Read>) -> Result<SourceId, Failure> {
-        let file = tempfile::tempfile().map_err(|e| Failure::call(format!("no room to spool {name}: {e}")))?;
+    fn spooled(&mut self, name: &str, stream: Box<dyn Read>) -> Result<SourceId, String> {
+        let file = tempfile::tempfile().map_err(|e| format!("no room to spool {name}: {e}"))?;
         Ok(self.push(Source { name: name.to_owned(), file, at: 0, rest: Some(stream), length: 0, format: None }))
     }
 
-    /// A program in memory is found before any file.
-    pub fn keep_in_memory(&mut self, number: u32, source: SourceId) {
-        self.memory.insert(number, source);
+    /// Files to load that are not found from here are looked for in this folder.
+    pub fn load_beside(&mut self, folder: PathBuf) {
+        self.beside = Some(folder);
     }
 
     /// Subprograms are looked up beside this file too.
-    pub fn look_beside(&mut self, file: &str) {
+    fn look_beside(&mut self, file: &str) {
         let folder = folder_of(file);
         if !self.folders.contains(&folder) {
             self.folders.push(folder);
@@ -204,6 +210,23 @@ impl Library for Texts {
             };
         }
         Ok(None)
+    }
+}
+
+impl Shelf for Texts {
+    fn open_file(&mut self, file: &str) -> Result<(SourceId, String), LibraryError> {
+        let beside = self.beside.as_ref().map(|folder| folder.join(file));
+        let path = match beside {
+            Some(beside) if !Path::new(file).exists() && beside.exists() => beside.to_string_lossy().into_owned(),
+            _ => file.to_owned(),
+        };
+        let source = self.opened(&path).map_err(LibraryError)?;
+        self.look_beside(&path);
+        Ok((source, Texts::program_name(file)))
+    }
+
+    fn keep_in_memory(&mut self, number: u32, source: SourceId) {
+        self.memory.insert(number, source);
     }
 }
 

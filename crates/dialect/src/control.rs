@@ -8,6 +8,7 @@ use crate::fitting::FROM_AXES;
 use crate::meaning::{MMeaning, Meaning};
 use crate::policy::ASKED;
 use crate::row::{Division, GCode, MCode, OptionRow, Origin, ParameterRow, PolicyRow};
+use crate::station::StationTable;
 use crate::user_macro::UserMacro;
 
 /// The most modal groups a control can have.
@@ -37,8 +38,14 @@ pub struct Group {
     pub name: String,
     /// Its state at power-on.
     pub power_on: GroupRule,
-    /// Its state after a reset.
+    /// Its state after the RESET key.
     pub reset: GroupRule,
+    /// Its state after an emergency stop.
+    pub emergency_stop: GroupRule,
+    /// Its state after a program's end at which the control resets.
+    pub program_end: GroupRule,
+    /// The parameter that decides at power-on follows the code last programmed.
+    pub stored: bool,
     /// What the row rests on.
     pub origin: Origin,
 }
@@ -185,6 +192,8 @@ pub struct Control {
     pub policies: Vec<PolicyRow>,
     /// The parameters.
     pub parameters: Vec<ParameterRow>,
+    /// The operator's station.
+    pub station: StationTable,
     /// The user macro.
     pub user_macro: UserMacro,
     /// The alarms.
@@ -236,7 +245,9 @@ impl Control {
     pub fn asks_for(&self, option: &str) -> bool {
         let index = self.options.iter().position(|row| row.name == option);
         let gives = |code: &GCode| index.is_some_and(|index| code.division == Division::Option(index as u8));
-        ASKED.contains(&option) || FROM_AXES.contains(&option) || self.g_codes.iter().any(gives)
+        let keeps = self.station.states.iter().any(|row| row.kept_by.as_deref() == Some(option));
+        let limits = index.is_some() && self.station.more_programs == index;
+        limits || keeps || ASKED.contains(&option) || FROM_AXES.contains(&option) || self.g_codes.iter().any(gives)
     }
 
     /// A G row's name as programs write it: `G01`.

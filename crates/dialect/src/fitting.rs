@@ -4,7 +4,7 @@ use std::fmt;
 
 use tape::{CodeError, Codes};
 
-use crate::control::{Control, GroupCodes, GroupRule, MOST_GROUPS, NO_CODE};
+use crate::control::Control;
 use crate::policy::{KNOWN, Options, Policies};
 use crate::row::{Division, ParameterKind};
 
@@ -112,6 +112,19 @@ impl Fitting {
         control.options.iter().zip(&self.fitted).any(|(row, &fitted)| fitted && row.name == name)
     }
 
+    /// Most programs that memory takes; `None` for no limit.
+    pub fn most_programs(&self, control: &Control) -> Option<usize> {
+        let more = control.station.more_programs.and_then(|index| self.fitted.get(index)).copied().unwrap_or(false);
+        (!more).then_some(control.station.most_programs)
+    }
+
+    /// True if a setting protects the program of this number.
+    pub fn protects(&self, control: &Control, number: u32) -> bool {
+        let bits = self.bits(control.station.protection);
+        let mut ranges = control.station.protected.iter().enumerate();
+        ranges.any(|(bit, [low, high])| bits >> bit & 1 == 1 && (*low..=*high).contains(&number))
+    }
+
     /// True if a control of this fitting has a code of this division.
     pub fn has(&self, division: Division) -> bool {
         match division {
@@ -174,6 +187,13 @@ impl Fitting {
         Ok(())
     }
 
+    /// Writes a parameter that the control itself keeps.
+    pub(crate) fn write(&mut self, index: usize, value: f64) {
+        if let Some(parameter) = self.parameters.get_mut(index) {
+            *parameter = value;
+        }
+    }
+
     /// The value of the parameter with this index.
     pub fn parameter(&self, index: usize) -> f64 {
         self.parameters.get(index).copied().unwrap_or(0.0)
@@ -230,36 +250,8 @@ impl Fitting {
         Ok(())
     }
 
-    fn bits(&self, index: usize) -> u8 {
+    pub(crate) fn bits(&self, index: usize) -> u8 {
         self.parameter(index) as u8
-    }
-
-    fn decide(&self, rule: &GroupRule) -> Option<u8> {
-        let Some((index, bits, rows)) = &rule.parameter else { return rule.row };
-        let value = self.bits(*index);
-        let choice =
-            bits.iter().enumerate().fold(0, |choice, (place, bit)| choice | usize::from(value >> bit & 1) << place);
-        rows.get(choice).copied().unwrap_or(rule.row)
-    }
-
-    /// Every group's state at power-on.
-    pub fn power_on(&self, control: &Control) -> GroupCodes {
-        let mut codes = GroupCodes([NO_CODE; MOST_GROUPS]);
-        for (index, group) in control.groups.iter().enumerate() {
-            codes.0[index] = self.decide(&group.power_on).unwrap_or(NO_CODE);
-        }
-        codes
-    }
-
-    /// Every group's state after a reset.
-    pub fn reset(&self, control: &Control, before: GroupCodes) -> GroupCodes {
-        let mut codes = before;
-        for (index, group) in control.groups.iter().enumerate() {
-            if let Some(row) = self.decide(&group.reset) {
-                codes.0[index] = row;
-            }
-        }
-        codes
     }
 }
 

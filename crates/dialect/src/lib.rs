@@ -12,8 +12,10 @@ mod control;
 mod fitting;
 mod load;
 mod meaning;
+mod occasion;
 mod policy;
 mod row;
+mod station;
 mod user_macro;
 mod word;
 
@@ -27,15 +29,17 @@ pub use control::{
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use load::{ControlFiles, load_control};
 pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};
+pub use occasion::{Fate, Occasion, StateItem, StateRow};
 pub use policy::{
     ArcWithoutCentre, CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleWithMotion, DwellVariable,
-    FeedModeChange, G87Return, G92System, InchFeedInteger, M01OffOutput, MOver99, OneShotCompany, Options, Policies,
-    PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ResetPointer, ScalingBoreLevels,
+    FeedModeChange, G87Return, G92System, InchFeedInteger, M01OffOutput, MOver99, MdiCalls, OneShotCompany, Options,
+    Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ResetPointer, ScalingBoreLevels,
     ScalingCompany, SkipWithoutSignal, StrokeCheck, UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,
 };
+pub use station::{ModeKind, ModeRow, StationTable};
 
 pub use user_macro::{ArgumentRow, FunctionRow, UserMacro, VariableRow};
 

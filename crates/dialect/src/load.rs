@@ -5,6 +5,7 @@
 mod alarms;
 mod codes;
 mod settings;
+mod station;
 mod user_macro;
 
 use data::{DataError, Document, Table};
@@ -215,8 +216,9 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     let addresses = files.read("addresses.toml", settings::addresses).map_err(&mut keep).ok();
     let m_codes = files.read("m_codes.toml", codes::m_codes).map_err(&mut keep).ok();
     let user_macro = files.read("macro.toml", user_macro::user_macro).map_err(&mut keep).ok();
-    let (Some(head), Some(parameters), Some(addresses), Some((m_ranges, m_codes)), Some(user_macro)) =
-        (head, parameters, addresses, m_codes, user_macro)
+    let station = files.read("station.toml", station::station).map_err(&mut keep).ok();
+    let (Some(head), Some(parameters), Some(addresses), Some((m_ranges, m_codes)), Some(user_macro), Some(station)) =
+        (head, parameters, addresses, m_codes, user_macro, station)
     else {
         return Err(errors);
     };
@@ -255,6 +257,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         limit: parameter_if_any(&parameters, "cutting feed limit"),
         dwell: parameter_if_any(&parameters, "dwell in revolutions"),
     };
+    let station = station::resolve(files, station, &parameters, &head.options)?;
     Ok(Control {
         name: head.name,
         title: head.title,
@@ -290,6 +293,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         options: head.options,
         policies: head.policies,
         parameters,
+        station,
         user_macro,
         alarms,
         sentences,
@@ -369,6 +373,9 @@ fn resolve_groups(
             name: draft.name.clone(),
             power_on: rule(&draft.power_on)?,
             reset: rule(&draft.reset)?,
+            emergency_stop: rule(&draft.emergency_stop)?,
+            program_end: rule(&draft.program_end)?,
+            stored: draft.stored,
             origin: draft.origin.clone(),
         });
     }

@@ -181,6 +181,13 @@ policies! {
         /// At the head of the main program.
         Head = "head",
     }
+    /// Whether calls and macros may be typed in MDI.
+    mdi_calls: MdiCalls = "mdi-calls" {
+        /// They are refused.
+        Refuse = "refuse",
+        /// They are taken.
+        Allow = "allow",
+    }
     /// Whether F survives a change between feed per minute and per revolution.
     feed_mode_change: FeedModeChange = "feed-mode-change" {
         /// A new F must be programmed.

@@ -209,7 +209,10 @@ mod tests {
         assert_eq!((met.axis, met.border), (1, 10.0));
         assert!((at[1] - 10.0).abs() < 1e-8 && (at[0] - 5.1414).abs() < 1e-3, "{at:?}");
         assert!(curve(&unit(), &arc(20.0)).is_none(), "it touches");
-        let shape = Shape::Arc { arc: arc(19.999), feed: Feed { mm_per_min: 1.0, exact_stop: false, tapping: false } };
+        let shape = Shape::Arc {
+            arc: arc(19.999),
+            feed: Feed { mm_per_min: 1.0, exact_stop: false, tapping: false, per_revolution: false },
+        };
         assert!(offence(&StrokeArea { outside: true, ..unit() }, &shape, None).is_some(), "it begins outside");
     }
 

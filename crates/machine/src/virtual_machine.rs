@@ -31,8 +31,8 @@ pub trait Machine {
     /// The move would leave the travel: nothing of it has been executed (or the part up to the border, by policy).
     fn execute(&mut self, timed: &Timed<'_>, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal>;
 
-    /// The block is done: waits for the machine's answers to its codes.
-    fn finish_block(&mut self, place: &Place, tell: &mut dyn FnMut(Event));
+    /// The block is done: waits for the machine's answers to its codes, unless the program does not want that.
+    fn finish_block(&mut self, place: &Place, waits: bool, tell: &mut dyn FnMut(Event));
 
     /// Where the axes are, mm and degrees in machine coordinates.
     fn position(&self) -> &Point;
@@ -320,8 +320,10 @@ impl Machine for VirtualMachine {
         Ok(())
     }
 
-    fn finish_block(&mut self, place: &Place, tell: &mut dyn FnMut(Event)) {
-        self.await_codes(place, tell);
+    fn finish_block(&mut self, place: &Place, waits: bool, tell: &mut dyn FnMut(Event)) {
+        if waits {
+            self.await_codes(place, tell);
+        }
         self.hold = self.time;
         self.tell(tell, place, EventKind::BlockDone);
     }

@@ -134,6 +134,8 @@ pub struct Command {
     pub(crate) axis_words: [Extent; AXES],
     /// Axes written absolutely.
     pub absolute: AxisSet,
+    /// Axes that it returns to their reference point.
+    pub returned: AxisSet,
     /// The second stored stroke area is checked.
     pub(crate) stroke_check: bool,
     /// Checking on: some axis' place before the block is unknown.

@@ -245,7 +245,7 @@ mod tests {
             shift_axes: [0, 1],
             restart: None,
             by_hand: false,
-            feed: Feed { mm_per_min: 100.0, exact_stop: false, tapping: false },
+            feed: Feed { mm_per_min: 100.0, exact_stop: false, tapping: false, per_revolution: false },
             rapid: RapidKind::Checked,
         };
         for &(name, cycle) in Meaning::TABLE.iter().filter(|(_, meaning)| meaning.is_cycle()) {

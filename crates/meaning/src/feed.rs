@@ -81,7 +81,7 @@ impl Reading<'_> {
         if limit > 0.0 && mm.is_finite() {
             mm = mm.min(limit);
         }
-        Ok(Feed { mm_per_min: mm, exact_stop: self.exact_stop, tapping: false })
+        Ok(Feed { mm_per_min: mm, exact_stop: self.exact_stop, tapping: false, per_revolution })
     }
 
     /// The spindle speed that S has set, rev/min.

@@ -1,9 +1,11 @@
 //! The interpreter: the reader, the queue and the expansion as one thing that is pulled.
 
+mod states;
+
 use std::sync::Arc;
 
 use base::{AXES, AxisSet, Place, Point, ProgramId, SourceId};
-use dialect::{Control, Fitting, M01OffOutput, ResetPointer};
+use dialect::{Control, Fitting, GroupCodes, M01OffOutput};
 
 use crate::command::{Body, Command, Finish};
 use crate::expand::{Expansion, Surroundings};
@@ -40,6 +42,10 @@ pub struct Interpreter {
     measures: bool,
     /// The state in which the selected program begins.
     start_state: State,
+    /// Origin of the base work system at power-on (counts).
+    base_origin: Point,
+    /// The codes when settings that follow them were written last.
+    stored: GroupCodes,
 }
 
 impl Interpreter {
@@ -82,6 +88,8 @@ impl Interpreter {
             waits_for_start: false,
             measures: false,
             start_state: state,
+            base_origin,
+            stored: groups,
         }
     }
 
@@ -382,78 +390,6 @@ impl Interpreter {
         let start = offset + bytes.len() as u64 - self.gathered.len() as u64;
         self.reader.take(source, start, &self.gathered, last);
         self.gathered.clear();
-    }
-
-    /// RESET: the queue is dropped, the executing block's state restored, the reset table applied.
-    ///
-    /// `machine` is where the axes really stand (mm, degrees). The program goes on with the block after the executing
-    /// one, with that block itself if it was `refused`, or from its head (policy `reset-pointer`).
-    pub fn reset(&mut self, machine: &Point, refused: bool) {
-        self.restore(machine, refused);
-        let setting = &self.reader.setting;
-        let state = &mut self.reader.state;
-        let cycle = setting.control.roles.cycle;
-        let before = state.groups.0[cycle];
-        state.groups = setting.fitting.reset(&setting.control, state.groups);
-        state.block_control = 0;
-        state.feed_control = 0;
-        if state.groups.0[cycle] != before {
-            state.cycle = crate::cycle::CycleData::default();
-        }
-        setting.end_transform(state);
-        (state.interrupt, state.buffering) = (None, false);
-        self.reader.setting.memory.variables.reset();
-        self.start_state = self.reader.state;
-    }
-
-    /// Axes whose reference point is not established: at power-on, or after the position was lost.
-    pub fn lose_reference_points(&mut self, axes: AxisSet) {
-        let established = &mut self.reader.state.reference.established;
-        *established = established.without(axes);
-        self.start_state = self.reader.state;
-    }
-
-    /// Drops what was read and not executed: the state is that of the executing block, the axes stand at `machine`.
-    pub fn restore(&mut self, machine: &Point, refused: bool) {
-        // Nothing of a refused block has happened: the state is that of the block before it.
-        let state = self.state_so_far(!refused);
-        let command = self.queue.front().filter(|command| command.place.line > 0).copied();
-        self.drop_queue();
-        self.reader.state = state;
-        self.reader.stand_at(to_counts(machine));
-        let stays = self.reader.setting.fitting.policies.reset_pointer == ResetPointer::Stays;
-        match command {
-            Some(command) if stays => self.reader.go_to(&command, refused),
-            // Nothing is being executed: a second RESET leaves the program where the first one did.
-            None if stays => {}
-            _ => self.reader.rewind(),
-        }
-        self.started = false;
-        self.start_state = self.reader.state;
-    }
-
-    /// The state after the executing block if it has `begun`, after the block before it if not.
-    pub(crate) fn state_so_far(&self, begun: bool) -> State {
-        match self.queue.previous() {
-            _ if begun => *self.executing_state(),
-            Some(previous) => previous.after,
-            None => self.start_state,
-        }
-    }
-
-    /// Drops the queue; reading goes on in this state, with the axes at `machine` (mm, degrees).
-    pub(crate) fn go_on_from(&mut self, state: State, machine: &Point) {
-        self.drop_queue();
-        self.reader.state = state;
-        self.reader.stand_at(to_counts(machine));
-        self.start_state = self.reader.state;
-    }
-
-    /// CYCLE START after a program's end that did not rewind: reading goes on with the block after it.
-    pub fn go_on_after_end(&mut self) {
-        self.drop_queue();
-        self.reader.go_on();
-        self.started = false;
     }
 
     /// Where the axes are in the coordinates of the work system in force: mm and degrees for a machine position.

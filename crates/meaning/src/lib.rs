@@ -26,6 +26,7 @@ mod interrupt;
 mod jump;
 mod mirror;
 mod motion;
+mod occasion;
 mod operation;
 mod position_offset;
 mod program;
@@ -53,6 +54,7 @@ pub use operation::{
     Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side,
     StopKind, StrokeArea,
 };
+pub use program::Pointer;
 pub use pull::{Answer, Barrier, BarrierKind, Pull, Quantity, StaleBarrier};
 pub use reference_point::ReferenceData;
 pub use state::{Corner, State};

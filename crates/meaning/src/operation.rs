@@ -65,6 +65,8 @@ pub struct Feed {
     pub exact_stop: bool,
     /// True in tapping: override 100 %, feed hold deferred.
     pub tapping: bool,
+    /// True if it follows the spindle: the speed that was commanded is counted in, the spindle override is not.
+    pub per_revolution: bool,
 }
 
 /// An arc, in its plane; every other axis moves in step with the angle.

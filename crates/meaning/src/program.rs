@@ -58,6 +58,10 @@ pub(crate) enum CalledBy {
     ModalMacro,
 }
 
+/// Where a main program goes on: to leave it for another and come back.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Pointer(pub(crate) Frame);
+
 /// One program in execution: the main program or a subprogram on its level.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Frame {

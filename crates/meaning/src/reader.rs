@@ -82,6 +82,8 @@ pub(crate) struct Reader {
     jumps: u64,
     /// Statements since the last move, dwell or stop.
     pub(crate) statements: u64,
+    /// A tape is read on behind the next end of block: what stands before it counts as its label.
+    pub passes_over: bool,
     /// Something has moved, dwelt or stopped since the last jump back.
     pub(crate) moved: bool,
     pub(crate) repetition: Repetition,
@@ -120,6 +122,7 @@ impl Reader {
             ended: true,
             jumps: 0,
             statements: 0,
+            passes_over: false,
             moved: false,
             repetition: Repetition::default(),
             asks_again: None,
@@ -146,6 +149,7 @@ impl Reader {
             main.begun = false;
             main.opened = false;
         }
+        self.passes_over = false;
         self.search = None;
         self.blocks = 0;
         self.ended = false;
@@ -179,6 +183,18 @@ impl Reader {
         {
             main.cursor = if again { command.here } else { command.frame.cursor };
             main.begun = main.cursor.offset > main.head.offset && !(again && command.here.offset == main.head.offset);
+        }
+    }
+
+    /// Reads on in another main program, where it was left.
+    pub fn go_back_to(&mut self, frame: Frame) {
+        self.calls.frames.clear();
+        self.calls.frames.push(frame);
+        let cursor = frame.cursor;
+        let (begun, opened) = (frame.begun, frame.opened);
+        self.rewind();
+        if let Some(main) = self.calls.frames.first_mut() {
+            (main.cursor, main.begun, main.opened) = (cursor, begun, opened);
         }
     }
 
@@ -250,6 +266,9 @@ impl Reader {
                     },
                 },
             };
+            if self.passes_label(&frame) {
+                continue;
+            }
             if unsound.is_none() && self.closes(&frame) {
                 return self.end_of_text(&frame, command);
             }
@@ -490,6 +509,7 @@ impl Reader {
         command.finish = Finish::Next;
         command.stops_reading = false;
         command.absolute = AxisSet::NONE;
+        command.returned = AxisSet::NONE;
         command.from_unknown = !self.state.unknown.axes.is_empty();
     }
 
@@ -696,6 +716,7 @@ pub(crate) fn empty_command(state: &State) -> Command {
         plane: AxisSet::NONE,
         axis_words: [syntax::Extent::default(); AXES],
         absolute: AxisSet::NONE,
+        returned: AxisSet::NONE,
         stroke_check: false,
         from_unknown: false,
         frame: Frame::default(),

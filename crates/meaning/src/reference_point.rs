@@ -35,6 +35,7 @@ impl Reading<'_> {
     pub fn reference_return(&mut self) -> Result<(), Alarm> {
         let axes = self.return_to(0)?;
         self.next.reference.established = self.next.reference.established.or(axes);
+        self.command.returned = axes;
         Ok(())
     }
 

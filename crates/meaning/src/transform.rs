@@ -44,6 +44,11 @@ impl Default for Transform {
 }
 
 impl Transform {
+    /// True while mirror image is on, for whichever axes.
+    pub const fn is_mirror_on(&self) -> bool {
+        self.mirror
+    }
+
     /// True if words mean what they say.
     pub const fn is_plain(&self) -> bool {
         self.scaled.is_empty() && self.mirrored.is_empty()
@@ -122,14 +127,12 @@ impl Setting {
         transform.unscale(axis, transform.reflect(axis, machine - length) + length - zero)
     }
 
-    /// After a reset: what is no longer in force has no effect.
-    pub fn end_transform(&self, state: &mut State) {
+    /// After a reset: a scale that is no longer in force has no effect.
+    pub fn end_scaling(&self, state: &mut State) {
         let scaling = self.control.roles.scaling.and_then(|group| self.control.in_force(&state.groups, group));
         if scaling != Some(Meaning::ScalingOn) {
             state.transform.scaled = AxisSet::NONE;
         }
-        state.transform.mirror = false;
-        state.transform.mirrored = AxisSet::NONE;
     }
 }
 

@@ -106,7 +106,7 @@ fn reset_goes_back_to_the_state_of_the_block_being_executed() {
     let name = |interpreter: &Interpreter, row: u8| interpreter.control().g_name(row);
     assert_eq!(name(&interpreter, interpreter.read_state().groups.0[distance]), "G90", "two blocks are read ahead");
     assert_eq!(name(&interpreter, interpreter.executing_state().groups.0[distance]), "G91");
-    interpreter.reset(&[0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], false);
+    interpreter.reset(dialect::Occasion::Reset, &[0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], false);
     assert_eq!(name(&interpreter, interpreter.read_state().groups.0[distance]), "G91", "what was read is dropped");
     assert_eq!(interpreter.read_state().machine[0], 500_000.0, "the axes stand where they really are");
 }

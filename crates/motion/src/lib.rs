@@ -7,9 +7,11 @@
 //! comes later and changes durations only.
 
 mod limits;
+mod overrides;
 mod profile;
 mod stage;
 
 pub use limits::{AxisLimits, Limits};
+pub use overrides::Overrides;
 pub use profile::Trapezoid;
 pub use stage::{Motion, Timed};

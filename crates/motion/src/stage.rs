@@ -5,6 +5,7 @@ use meaning::{Answer, Feed, Pull, StaleBarrier};
 use path::{Arc, Path, Shape, Shaped};
 
 use crate::limits::Limits;
+use crate::overrides::Overrides;
 use crate::profile::Trapezoid;
 
 /// A shape with its time.
@@ -25,12 +26,23 @@ pub struct Motion {
     /// The stage before.
     pub upstream: Path,
     limits: Limits,
+    overrides: Overrides,
 }
 
 impl Motion {
     /// The stage behind a path, under these limits.
     pub fn new(upstream: Path, limits: Limits) -> Motion {
-        Motion { upstream, limits }
+        Motion { upstream, limits, overrides: Overrides::default() }
+    }
+
+    /// The speeds as the operator has set them, from the next move on.
+    pub fn set_overrides(&mut self, overrides: Overrides) {
+        self.overrides = overrides;
+    }
+
+    /// The speeds as the operator has set them.
+    pub fn overrides(&self) -> &Overrides {
+        &self.overrides
     }
 
     /// Answers the interpreter's open barrier.
@@ -53,12 +65,16 @@ impl Motion {
 
     /// The shape that [`Motion::next`] has come to, with its time.
     pub fn current(&self) -> Timed<'_> {
-        let shaped = self.upstream.current();
+        self.time(self.upstream.current())
+    }
+
+    /// A shape with its time.
+    pub fn time<'s>(&self, shaped: &'s Shaped) -> Timed<'s> {
         let (seconds, length, feed) = match &shaped.shape {
             Shape::Rapid { from, to, .. } => self.rapid(from, to),
             Shape::Line { from, to, feed } => self.line(from, to, feed),
             Shape::Arc { arc, feed } => self.arc(arc, feed),
-            Shape::Dwell(dwell) => (dwell.seconds(), 0.0, 0.0),
+            Shape::Dwell(dwell) => (self.overrides.dwell(*dwell), 0.0, 0.0),
             _ => (0.0, 0.0, 0.0),
         };
         Timed { shaped, duration: Seconds(seconds), length, feed }
@@ -67,7 +83,7 @@ impl Motion {
     fn rapid(&self, from: &Point, to: &Point) -> (f64, f64, f64) {
         let length = distance(from, to, self.limits.count);
         if self.limits.straight_rapid {
-            let (speed, acceleration) = self.along(from, to, length, |axis| axis.rapid);
+            let (speed, acceleration) = self.along(from, to, length, |axis| self.overrides.rapid(axis.rapid));
             return (Trapezoid::new(length, speed, acceleration).seconds(), length, 0.0);
         }
         let mut longest = 0.0f64;
@@ -75,7 +91,8 @@ impl Motion {
             let way = (to[axis] - from[axis]).abs();
             if way > 0.0 {
                 let limits = &self.limits.axes[axis];
-                longest = longest.max(Trapezoid::new(way, limits.rapid, limits.acceleration).seconds());
+                longest =
+                    longest.max(Trapezoid::new(way, self.overrides.rapid(limits.rapid), limits.acceleration).seconds());
             }
         }
         (longest, length, 0.0)
@@ -83,11 +100,14 @@ impl Motion {
 
     fn line(&self, from: &Point, to: &Point, feed: &Feed) -> (f64, f64, f64) {
         let length = distance(from, to, self.limits.count);
-        let at_rapid = feed.mm_per_min == f64::INFINITY;
-        let (speed, acceleration) =
-            self.along(from, to, length, |axis| if at_rapid { axis.rapid } else { axis.max_feed });
-        let commanded = if at_rapid { speed * 60.0 } else { feed.mm_per_min };
-        let speed = speed.min(commanded / 60.0);
+        let at_rapid = self.overrides.at_rapid(feed);
+        let rate = |axis: &crate::AxisLimits| if at_rapid { self.overrides.rapid(axis.rapid) } else { axis.max_feed };
+        let (most, acceleration) = self.along(from, to, length, rate);
+        let (commanded, speed) = if at_rapid {
+            (self.along(from, to, length, |axis| axis.rapid).0 * 60.0, most)
+        } else {
+            (self.overrides.commanded(feed), most.min(self.overrides.actual(feed) / 60.0))
+        };
         (Trapezoid::new(length, speed, acceleration).seconds(), length, commanded)
     }
 
@@ -117,12 +137,16 @@ impl Motion {
         let given = u.acceleration.min(v.acceleration);
         let radius = arc.radius[0].min(arc.radius[1]).max(1e-6);
         let centripetal = (given * radius * std::f64::consts::FRAC_1_SQRT_2).sqrt();
-        let at_rapid = feed.mm_per_min == f64::INFINITY;
-        let rate = |limits: &crate::AxisLimits| if at_rapid { limits.rapid } else { limits.max_feed };
+        let at_rapid = self.overrides.at_rapid(feed);
+        let rate = |axis: &crate::AxisLimits| if at_rapid { self.overrides.rapid(axis.rapid) } else { axis.max_feed };
         let most = rate(u).min(rate(v));
-        let commanded = if at_rapid { most * 60.0 } else { feed.mm_per_min };
+        let (commanded, actual) = if at_rapid {
+            (u.rapid.min(v.rapid) * 60.0, most)
+        } else {
+            (self.overrides.commanded(feed), self.overrides.actual(feed) / 60.0)
+        };
         // Speeds in the plane; the axes beside it keep step.
-        let mut speed = (commanded / 60.0).min(most).min(centripetal);
+        let mut speed = actual.min(most).min(centripetal);
         let towards_centre = speed * speed / radius;
         let mut acceleration = (given * given - towards_centre * towards_centre).max(0.0).sqrt();
         for axis in (0..self.limits.count).filter(|&axis| !arc.axes.contains(&(axis as u8))) {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use dialect::{Control, Division, GCode, Group, GroupRule};
+use dialect::{Control, Division, Fate, GCode, Group, GroupRule, StateItem};
 
 /// One line a control.
 pub fn control_list<'c>(controls: impl Iterator<Item = &'c Control>) -> String {
@@ -19,6 +19,8 @@ pub fn control_table(control: &Control) -> String {
     let _ = writeln!(out, "{} ({})\n{}\n", control.title, control.maker, control.summary);
     g_codes(control, &mut out);
     groups(control, &mut out);
+    states(control, &mut out);
+    modes(control, &mut out);
     m_codes(control, &mut out);
     addresses(control, &mut out);
     options_and_policies(control, &mut out);
@@ -72,10 +74,41 @@ fn state(control: &Control, rule: &GroupRule, keeps: &str) -> String {
 }
 
 fn groups(control: &Control, out: &mut String) {
-    heading(out, "Modal groups   (at power-on, after reset)");
-    for Group { number, name, power_on, reset, origin } in &control.groups {
+    heading(
+        out,
+        "Modal groups   (at power-on, after RESET; where they differ also after emergency stop and program end)",
+    );
+    for Group { number, name, power_on, reset, emergency_stop, program_end, origin, .. } in &control.groups {
         let (at, after) = (state(control, power_on, "-"), state(control, reset, "kept"));
-        let _ = writeln!(out, "{number:02}  {name:<22} {at:<40} {after:<28} {}", origin.certainty.0);
+        let _ = write!(out, "{number:02}  {name:<22} {at:<40} {after:<28} {}", origin.certainty.0);
+        for (rule, occasion) in [(emergency_stop, "emergency stop"), (program_end, "program end")] {
+            if rule != reset {
+                let _ = write!(out, "  {occasion}: {}", state(control, rule, "kept"));
+            }
+        }
+        out.push('\n');
+    }
+    out.push('\n');
+}
+
+fn states(control: &Control, out: &mut String) {
+    heading(out, "Other states   (at power-on, RESET, emergency stop, program end with reset)");
+    for row in &control.station.states {
+        let name = StateItem::TABLE.iter().find(|(_, item)| *item == row.item).map_or("?", |(name, _)| name);
+        let after = row.fates.map(|fate| if fate == Fate::Keep { "kept" } else { row.initial.as_str() });
+        let _ = write!(out, "{name:<20} {}  {}", row.origin.certainty.0, after.join(" / "));
+        if let Some(option) = &row.kept_by {
+            let _ = write!(out, "; kept through an emergency stop by option {option}");
+        }
+        out.push('\n');
+    }
+    out.push('\n');
+}
+
+fn modes(control: &Control, out: &mut String) {
+    heading(out, "Modes of the operator's station");
+    for mode in &control.station.modes {
+        let _ = writeln!(out, "{:<10} {}  {}", mode.name, mode.origin.certainty.0, mode.text);
     }
     out.push('\n');
 }

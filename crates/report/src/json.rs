@@ -67,13 +67,15 @@ pub(crate) fn push_text(out: &mut Vec<u8>, text: &str) {
 pub struct JsonLine<'o> {
     out: &'o mut Vec<u8>,
     first: bool,
+    /// The items of a list, which have no names.
+    list: bool,
 }
 
 impl<'o> JsonLine<'o> {
     /// Begins an object.
     pub fn begin(out: &'o mut Vec<u8>) -> JsonLine<'o> {
         out.push(b'{');
-        JsonLine { out, first: true }
+        JsonLine { out, first: true, list: false }
     }
 
     /// The buffer, with this field's name written; its value must follow.
@@ -82,8 +84,10 @@ impl<'o> JsonLine<'o> {
             self.out.push(b',');
         }
         self.first = false;
-        push_text(self.out, name);
-        self.out.push(b':');
+        if !self.list {
+            push_text(self.out, name);
+            self.out.push(b':');
+        }
         self.out
     }
 
@@ -126,9 +130,19 @@ impl<'o> JsonLine<'o> {
         self
     }
 
+    /// A list; `write` writes each item as one field, whose name is left out.
+    pub fn list<T>(&mut self, name: &str, items: &[T], write: impl Fn(&T, &mut JsonLine)) -> &mut Self {
+        let out = self.field(name);
+        out.push(b'[');
+        let mut inner = JsonLine { out, first: true, list: true };
+        items.iter().for_each(|item| write(item, &mut inner));
+        inner.end();
+        self
+    }
+
     /// Ends the object.
     pub fn end(self) {
-        self.out.push(b'}');
+        self.out.push(if self.list { b']' } else { b'}' });
     }
 }
 

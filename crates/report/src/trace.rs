@@ -57,6 +57,8 @@ impl<'c> Tracer<'c> {
         let kind = match &event.kind {
             EventKind::BlockDone | EventKind::Waited(_) => return,
             EventKind::Finished(_) if !self.with_io => return,
+            // A held axis has not moved.
+            EventKind::Rapid { from, to, .. } | EventKind::Feed { from, to, .. } if from == to => return,
             kind => kind,
         };
         let mut line = JsonLine::begin(out);
@@ -133,7 +135,7 @@ impl<'c> Tracer<'c> {
                 line.text("kind", stop_name(*cause));
             }
             EventKind::Alarm(alarm) => {
-                let column = alarm.place.column(alarm.span);
+                let column = (alarm.place.line > 0).then(|| alarm.place.column(alarm.span));
                 alarm_fields(column, diagnostic, line);
             }
             EventKind::Reset { cause, groups } => {
@@ -154,7 +156,7 @@ impl<'c> Tracer<'c> {
     }
 
     /// A point as an object of the machine's axes.
-    pub fn point(&self, field: &str, point: &Point, line: &mut JsonLine) {
+    fn point(&self, field: &str, point: &Point, line: &mut JsonLine) {
         let all = AxisSet(((1u16 << self.axes.len().min(8)) - 1) as u8);
         self.axes_object(field, point, all, line);
     }
@@ -210,14 +212,9 @@ impl<'c> Tracer<'c> {
             }
         }
     }
-
-    /// The codes in force as the value of a display.
-    pub fn modal_value(&self, groups: &GroupCodes, line: &mut JsonLine) {
-        line.object("value", |value| modal_fields(self.control, groups, value));
-    }
 }
 
-fn alarm_fields(column: u64, diagnostic: Option<&Diagnostic>, line: &mut JsonLine) {
+fn alarm_fields(column: Option<u64>, diagnostic: Option<&Diagnostic>, line: &mut JsonLine) {
     if let Some(diagnostic) = diagnostic {
         if let Some(alarm) = &diagnostic.alarm {
             line.text("name", &alarm.name);
@@ -225,7 +222,9 @@ fn alarm_fields(column: u64, diagnostic: Option<&Diagnostic>, line: &mut JsonLin
                 line.integer("number", u64::from(number));
             }
         }
-        line.integer("column", column);
+        if let Some(column) = column {
+            line.integer("column", column);
+        }
         line.text("text", &diagnostic.message);
     }
 }

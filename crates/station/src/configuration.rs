@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use base::{AXES, AxisSet, Point};
-use dialect::{Control, Fitting, Meaning};
+use dialect::{Control, Fitting};
 use machine::MachineFile;
 use meaning::{Memory, OffsetTable, Variables};
 
+use crate::memory;
 use crate::setup::{OffsetColumn, Setup};
 use crate::switches::SessionSwitches;
 
@@ -188,15 +189,15 @@ impl Configuration {
             self.set_work(system, *axis, *mm)?;
         }
         for &(letter, mm) in &setup.start {
-            let axis = self.axis(letter)?;
+            let axis = memory::axis_of(&self.machine, letter)?;
             self.start[axis] = mm;
         }
         for &(letter, returned) in &setup.returned {
-            let axis = AxisSet::only(self.axis(letter)?);
+            let axis = AxisSet::only(memory::axis_of(&self.machine, letter)?);
             self.not_returned = if returned { self.not_returned.without(axis) } else { self.not_returned.or(axis) };
         }
         for &(letter, at) in &setup.contact {
-            let axis = self.axis(letter)?;
+            let axis = memory::axis_of(&self.machine, letter)?;
             self.contact.push((axis, at));
         }
         for (name, number) in &setup.switches {
@@ -208,36 +209,12 @@ impl Configuration {
         Ok(())
     }
 
-    fn axis(&self, letter: u8) -> Result<usize, ConfigurationError> {
-        let found = self.machine.axes.iter().position(|axis| axis.letter == letter);
-        found.ok_or_else(|| wrong(format!("the machine {} has no axis {}", self.machine.name, char::from(letter))))
-    }
-
     /// Writes an offset, mm.
     ///
     /// # Errors
     /// There is no such number, or the value is too large.
     pub fn set_offset(&mut self, column: OffsetColumn, number: u32, mm: f64) -> Result<(), ConfigurationError> {
-        let (title, limit) = (&self.control.title, self.control.offset_limit_mm);
-        if mm.abs() > limit {
-            return Err(wrong(format!("offset {number} = {mm}: an offset lies within ±{limit} mm")));
-        }
-        let table = match (column, &mut self.memory.radii) {
-            (OffsetColumn::Common, None) | (OffsetColumn::Length, Some(_)) => &mut self.memory.lengths,
-            (OffsetColumn::Radius, Some(radii)) => radii,
-            (OffsetColumn::Common, Some(_)) => {
-                return Err(wrong(format!(
-                    "the {title} keeps lengths and radii apart: write H{number}= or D{number}="
-                )));
-            }
-            (_, None) => return Err(wrong(format!("the {title} has one common memory: write it under [offsets]"))),
-        };
-        if table.set(number, (mm * 1e6).round()) {
-            Ok(())
-        } else {
-            let highest = self.control.highest_offset;
-            Err(wrong(format!("there is no offset {number}; the {title} has 1 to {highest}")))
-        }
+        memory::write_offset(&self.control, &mut self.memory, column, number, mm)
     }
 
     /// Writes the origin of a work system on one axis, mm or degrees.
@@ -245,18 +222,15 @@ impl Configuration {
     /// # Errors
     /// There is no such system or axis.
     pub fn set_work(&mut self, system: &str, letter: u8, mm: f64) -> Result<(), ConfigurationError> {
-        let axis = self.axis(letter)?;
+        let axis = memory::axis_of(&self.machine, letter)?;
         let counts = (mm * 1e6).round();
-        let row = self.control.g_codes.iter().enumerate().find(|(row, _)| self.control.g_name(*row as u8) == system);
-        match row {
-            Some((_, code)) if code.meaning == Meaning::WorkSystem => {
-                match self.memory.work.get_mut(usize::from(code.number.saturating_sub(1))) {
-                    Some(origin) => origin[axis] = counts,
-                    None => return Err(wrong(format!("{system} is no work system"))),
+        match memory::work_system(&self.control, &self.memory, system)? {
+            memory::WorkSystem::Stored(index) => {
+                if let Some(origin) = self.memory.work.get_mut(index) {
+                    origin[axis] = counts;
                 }
             }
-            Some((row, _)) if Some(row as u8) == self.control.base_system => self.base_origin[axis] = counts,
-            _ => return Err(wrong(format!("{system} is no work system of the {}", self.control.title))),
+            memory::WorkSystem::Base => self.base_origin[axis] = counts,
         }
         Ok(())
     }

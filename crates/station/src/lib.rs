@@ -3,20 +3,26 @@
 //! Comes in: a [`Configuration`], the texts of programs through a [`Library`], the operator's actions. Goes out:
 //! events, one at a time, through [`Session::next`]. Must never know: files, clocks, how events are shown.
 
+mod action;
 mod catalogue;
 mod configuration;
+mod display;
 mod library;
+mod lock;
+mod memory;
 mod operator;
 mod script;
 mod session;
 mod setup;
 mod switches;
 
+pub use action::{Action, OverrideSwitch, Show, Until};
 pub use catalogue::programs_in;
 pub use configuration::{Configuration, ConfigurationError, Inputs};
-pub use library::{Library, LibraryError};
-pub use operator::{Loaded, Operator, Said, Shown};
-pub use script::{Action, ScriptError, Show, Until, read_script, split_switch};
-pub use session::{AfterAlarm, Session, Step};
+pub use display::Value;
+pub use library::{Library, LibraryError, Shelf};
+pub use operator::{Operator, Said};
+pub use script::{ScriptError, ScriptLine, read_action, read_script, split_offset, split_parameter, split_switch};
+pub use session::{AfterAlarm, Percents, Session, Step, TYPED};
 pub use setup::{OffsetColumn, Setup, read_setup};
 pub use switches::SessionSwitches;

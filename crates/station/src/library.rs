@@ -29,3 +29,15 @@ pub trait Library {
     /// A file of that name is there and cannot be read.
     fn find_program(&mut self, number: u32) -> Result<Option<SourceId>, LibraryError>;
 }
+
+/// The texts at hand, and files to load from.
+pub trait Shelf: Library {
+    /// Opens a file that an operator loads; also its name as a program where no O word gives it one.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    fn open_file(&mut self, file: &str) -> Result<(SourceId, String), LibraryError>;
+
+    /// The program of this number is in the control's memory: [`Library::find_program`] finds it before any other.
+    fn keep_in_memory(&mut self, number: u32, source: SourceId);
+}

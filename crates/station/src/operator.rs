@@ -1,12 +1,22 @@
 //! The operator at work: actions on a session, refused with a reason where the control would refuse them.
 
-use base::SourceId;
-use machine::{Event, EventKind, ResetCause};
+mod table;
+mod typing;
+mod write;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use base::{Condition, SourceId};
+use dialect::ModeRow;
+use machine::{Event, EventKind};
 use syntax::Cursor;
 
-use crate::library::{Library, LibraryError};
-use crate::script::{Action, Show, Until};
+use crate::action::{Action, Until};
+use crate::catalogue::programs_in;
+use crate::display::Value;
+use crate::library::{Library, LibraryError, Shelf};
 use crate::session::{Session, Step};
+use table::Begins;
 
 /// What an action brings to light.
 #[derive(Clone, PartialEq, Debug)]
@@ -15,132 +25,242 @@ pub enum Said {
     Event(Event),
     /// The action was refused and changed nothing.
     Refused {
-        /// The action as written.
+        /// The action as written, or in the words of the vocabulary.
         action: String,
         /// Why.
         why: String,
     },
     /// A display.
-    Shown(Shown),
-}
-
-/// What a display shows; the values are read from the session at that moment.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Shown {
-    /// The codes in force.
-    Modal,
-    /// Where the axes are.
-    Position,
-    /// What the station is doing.
-    State,
+    Shown {
+        /// Which, in the words of the vocabulary.
+        what: String,
+        /// What it shows.
+        value: Value,
+    },
 }
 
 /// A program in the control's memory.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Loaded {
+struct Loaded {
     /// The text it stands in.
-    pub source: SourceId,
-    /// Its name.
-    pub name: String,
+    source: SourceId,
     /// Where it begins in that text.
-    pub head: Cursor,
+    head: Cursor,
 }
 
 /// An operator at a session's panel.
 pub struct Operator<L> {
     /// The session.
     pub session: Session<L>,
-    selected: bool,
+    /// The position of the mode switch, as an index of the control's modes.
+    mode: usize,
+    /// The programs in memory by their names.
+    programs: BTreeMap<String, Loaded>,
+    /// The name under which a program was selected.
+    selected: Option<String>,
 }
 
 impl<L: Library> Operator<L> {
+    /// The mode in which the station stands.
+    pub fn mode(&self) -> &ModeRow {
+        // The loader refuses a control without modes, and the index is always one of them.
+        &self.session.configuration().control.station.modes[self.mode]
+    }
+
+    /// The names of the programs in memory.
+    pub fn programs(&self) -> impl Iterator<Item = &str> {
+        self.programs.keys().map(String::as_str)
+    }
+}
+
+impl<L: Shelf> Operator<L> {
     /// An operator at a control that has been powered on.
     pub fn new(mut session: Session<L>) -> Operator<L> {
         session.set_repeats_main(true);
-        Operator { session, selected: false }
+        Operator { session, mode: 0, programs: BTreeMap::new(), selected: None }
     }
 
-    /// Performs an action. `find` brings a program by its name, as loaded before. What happens is handed to `tell`.
+    /// Performs an action. What happens is handed to `tell`.
     ///
     /// # Errors
     /// A text could not be read.
     pub fn perform(
         &mut self,
         action: &Action,
-        find: impl FnOnce(&mut L, &str) -> Option<Loaded>,
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<(), LibraryError> {
-        let refusal = match action {
-            Action::Select(name) => self.select(name, find),
-            Action::CycleStart => self.cycle_start(),
-            Action::Reset => {
-                self.session.reset(ResetCause::Key);
-                self.drain(tell)?;
-                None
-            }
-            Action::Input(name, on) => self.session.set_input(name, *on).err(),
-            Action::Switch(name, number, on) => self.session.set_switch(name, *number, *on).err(),
-            Action::Run(until) => {
-                self.run(until, tell)?;
-                None
-            }
-            Action::Show(Show::Other(_)) => Some("this display is not built yet".to_owned()),
-            Action::Show(show) => {
-                let shown = match show {
-                    Show::Modal => Shown::Modal,
-                    Show::Position => Shown::Position,
-                    _ => Shown::State,
-                };
-                tell(&mut self.session, Said::Shown(shown));
-                None
-            }
-            Action::NotBuilt(_) => Some("this action is not built yet".to_owned()),
-            // Loading needs files: the caller has done it.
-            Action::Load(..) => None,
+        self.perform_written(action, None, tell)
+    }
+
+    /// Performs an action; a refusal repeats it as it was written.
+    ///
+    /// # Errors
+    /// A text could not be read.
+    pub fn perform_written(
+        &mut self,
+        action: &Action,
+        written: Option<&str>,
+        tell: &mut dyn FnMut(&mut Session<L>, Said),
+    ) -> Result<(), LibraryError> {
+        let outcome = match table::refusal(action, table::situation(&self.session)) {
+            Some(why) => Err(why.to_owned()),
+            None => self.act(action, tell)?,
         };
-        if let Some(why) = refusal {
-            tell(&mut self.session, Said::Refused { action: words_of(action), why });
+        if let Err(why) = outcome {
+            let action = written.map_or_else(|| action.to_string(), str::to_owned);
+            tell(&mut self.session, Said::Refused { action, why });
+        }
+        self.drain_told(tell)
+    }
+
+    /// Carries out an action that the table takes; the inner error is why it is refused all the same.
+    fn act(
+        &mut self,
+        action: &Action,
+        tell: &mut dyn FnMut(&mut Session<L>, Said),
+    ) -> Result<Result<(), String>, LibraryError> {
+        let session = &mut self.session;
+        match action {
+            Action::PowerOn => session.power_on(),
+            Action::PowerOff => session.power_off(),
+            Action::FeedHold if session.interpreter().executing_state().feed_control & 1 != 0 => {
+                return Ok(Err("the program does not let FEED HOLD act (#3004 bit 0)".to_owned()));
+            }
+            Action::FeedHold => session.feed_hold(),
+            Action::Reset => session.reset(),
+            Action::EmergencyStop => session.press_emergency_stop(),
+            Action::Release => session.release_emergency_stop(),
+            Action::Load(file, name) => self.load(file, name.as_deref())?,
+            Action::Run(until) => self.run(until, tell)?,
+            Action::Select(name) => return Ok(self.select(name)),
+            Action::Mode(name) => return Ok(self.turn_mode(name)),
+            Action::Mdi(blocks) => return Ok(self.type_blocks(blocks)),
+            Action::CycleStart => return Ok(self.cycle_start()),
+            Action::Show(show) => match self.display(show) {
+                Ok(value) => tell(&mut self.session, Said::Shown { what: show.to_string(), value }),
+                Err(why) => return Ok(Err(why)),
+            },
+            action => return Ok(self.write(action)),
+        }
+        Ok(Ok(()))
+    }
+
+    fn turn_mode(&mut self, name: &str) -> Result<(), String> {
+        let modes = &self.session.configuration().control.station.modes;
+        let Some(mode) = modes.iter().position(|mode| mode.name == name) else {
+            let known: Vec<_> = modes.iter().map(|mode| mode.name.as_str()).collect();
+            return Err(format!("there is no mode {name}; the modes are {}", known.join(", ")));
+        };
+        self.mode = mode;
+        if !self.session.is_running() && table::begins(self.mode()) != Ok(Begins::Typed) {
+            self.session.come_back();
         }
         Ok(())
     }
 
-    fn select(&mut self, name: &str, find: impl FnOnce(&mut L, &str) -> Option<Loaded>) -> Option<String> {
-        if self.session.is_running() {
-            return Some("a program is running".to_owned());
+    fn type_blocks(&mut self, blocks: &str) -> Result<(), String> {
+        if table::begins(self.mode()) != Ok(Begins::Typed) {
+            return Err(format!("blocks are typed in MDI mode, not in mode {}", self.mode().name));
         }
-        match find(self.session.library_mut(), name) {
-            Some(Loaded { source, name, head }) => {
-                self.session.interpreter_mut().forget_texts();
-                self.session.select(source, &name, head);
-                self.selected = true;
-                None
-            }
-            None => Some(format!("there is no program {name} in memory")),
-        }
+        let interpreter = self.session.interpreter();
+        typing::check(interpreter.control(), &interpreter.fitting().policies, blocks)?;
+        self.session.type_blocks(blocks);
+        Ok(())
     }
 
-    fn cycle_start(&mut self) -> Option<String> {
-        if self.session.alarm().is_some() {
-            return Some("an alarm stands; RESET clears it".to_owned());
-        }
-        if !self.selected {
-            return Some("no program is selected".to_owned());
-        }
-        if self.session.is_running() && !self.session.is_stopped() {
-            return Some("the program is running".to_owned());
-        }
-        self.session.start();
-        None
+    fn select(&mut self, name: &str) -> Result<(), String> {
+        let name = normal_name(name);
+        let Some(&Loaded { source, head }) = self.programs.get(&name) else {
+            return Err(format!("there is no program {name} in memory"));
+        };
+        self.session.interpreter_mut().forget_texts();
+        self.session.select(source, &name, head);
+        self.selected = Some(name);
+        Ok(())
     }
 
-    fn drain(&mut self, tell: &mut dyn FnMut(&mut Session<L>, Said)) -> Result<(), LibraryError> {
-        loop {
-            match self.session.next() {
-                Step::Event(event) => tell(&mut self.session, Said::Event(event)),
-                Step::Failed(error) => return Err(error),
-                Step::Stopped | Step::Idle => return Ok(()),
+    fn cycle_start(&mut self) -> Result<(), String> {
+        let begins = table::begins(self.mode())?;
+        let typed = begins == Begins::Typed;
+        if self.session.is_stopped() {
+            if typed != self.session.is_typed_selected() {
+                return Err("a program of another mode is stopped; go back to its mode or press RESET".to_owned());
+            }
+            self.session.start();
+        } else if typed {
+            if self.session.typed_blocks().is_empty() {
+                return Err("nothing has been typed".to_owned());
+            }
+            self.session.start_typed();
+        } else {
+            if self.selected.is_none() {
+                return Err("no program is selected".to_owned());
+            }
+            self.session.come_back();
+            match begins {
+                Begins::Tape => self.session.start_tape(),
+                _ => self.session.start(),
             }
         }
+        Ok(())
+    }
+
+    /// Loads a file into memory: every program that it holds.
+    fn load(&mut self, file: &str, name: Option<&str>) -> Result<(), LibraryError> {
+        let grammar = self.session.configuration().control.grammar;
+        let interpreter = self.session.interpreter();
+        let codes = interpreter.fitting().tape_codes(interpreter.control());
+        let shelf = self.session.library_mut();
+        let (source, own_name) = shelf.open_file(file)?;
+        let found = programs_in(shelf, source, &grammar, codes)?;
+        let mut names = Vec::new();
+        // A name given by hand, or the file's where no O word stands in it, is that of the text's first program.
+        match name {
+            Some(name) => names.push((normal_name(name), Cursor::HEAD)),
+            None if found.is_empty() => names.push((normal_name(&own_name), Cursor::HEAD)),
+            None => {}
+        }
+        names.extend(found.into_iter().map(|(number, head)| (format!("O{number}"), head)));
+        if let Some((condition, value)) = self.load_refusal(&names) {
+            self.session.raise_at_panel(condition, [value, 0.0, 0.0]);
+            return Ok(());
+        }
+        let mut reloaded = false;
+        for (name, head) in names.into_iter().rev() {
+            if let Some(number) = name.strip_prefix('O').and_then(|digits| digits.parse().ok()) {
+                self.session.library_mut().keep_in_memory(number, source);
+            }
+            reloaded |= self.selected.as_ref() == Some(&name);
+            self.programs.insert(name, Loaded { source, head });
+        }
+        // What was remembered of the program that this one replaces is worth nothing.
+        self.session.interpreter_mut().forget_texts();
+        if let (true, Some(name)) = (reloaded, self.selected.clone()) {
+            let _ = self.select(&name);
+        }
+        Ok(())
+    }
+
+    /// Why memory does not take these programs, if it does not, and the number that says so.
+    fn load_refusal(&self, names: &[(String, Cursor)]) -> Option<(Condition, f64)> {
+        let interpreter = self.session.interpreter();
+        let (control, fitting) = (interpreter.control(), interpreter.fitting());
+        let numbers = names.iter().filter_map(|(name, _)| name.strip_prefix('O')?.parse::<u32>().ok());
+        if let Some(number) = numbers.into_iter().find(|&number| fitting.protects(control, number)) {
+            return Some((Condition::ProgramProtected, f64::from(number)));
+        }
+        let more: BTreeSet<&str> =
+            names.iter().map(|(name, _)| name.as_str()).filter(|name| !self.programs.contains_key(*name)).collect();
+        let most = fitting.most_programs(control)?;
+        (self.programs.len() + more.len() > most).then_some((Condition::MemoryFull, most as f64))
+    }
+
+    /// Hands out what an action has brought about at once, without letting time pass.
+    fn drain_told(&mut self, tell: &mut dyn FnMut(&mut Session<L>, Said)) -> Result<(), LibraryError> {
+        while let Some(event) = self.session.next_told() {
+            tell(&mut self.session, Said::Event(event));
+        }
+        Ok(())
     }
 
     fn run(&mut self, until: &Until, tell: &mut dyn FnMut(&mut Session<L>, Said)) -> Result<(), LibraryError> {
@@ -158,8 +278,10 @@ impl<L: Library> Operator<L> {
             };
             tell(&mut self.session, Said::Event(event));
             let done = match (until, event.kind) {
-                (Until::Stop, EventKind::Stop(_)) | (Until::Alarm, EventKind::Alarm(_)) => true,
-                (Until::End, EventKind::End { .. }) => return self.drain(tell),
+                (Until::Stop, EventKind::Stop(_))
+                | (Until::Alarm, EventKind::Alarm(_))
+                // What its end brings about is told with it.
+                | (Until::End, EventKind::End { .. }) => true,
                 _ => false,
             };
             if done {
@@ -169,20 +291,11 @@ impl<L: Library> Operator<L> {
     }
 }
 
-/// An action in the words of the vocabulary.
-fn words_of(action: &Action) -> String {
-    let state = |on: &bool| if *on { "on" } else { "off" };
-    match action {
-        Action::Load(file, _) => format!("load {file}"),
-        Action::Select(name) => format!("select {name}"),
-        Action::CycleStart => "cycle-start".to_owned(),
-        Action::Reset => "reset".to_owned(),
-        Action::Input(name, on) => format!("input {name} {}", state(on)),
-        Action::Switch(name, None, on) => format!("switch {name} {}", state(on)),
-        Action::Switch(name, Some(number), on) => format!("switch {name}={number} {}", state(on)),
-        Action::Show(Show::Other(what)) => format!("show {what}"),
-        Action::Show(_) => "show".to_owned(),
-        Action::Run(_) => "run".to_owned(),
-        Action::NotBuilt(line) => line.clone(),
+/// `o0012` and `O12` are one program; other names stay as they are.
+fn normal_name(name: &str) -> String {
+    let digits = name.strip_prefix(['O', 'o']).unwrap_or_default();
+    match digits.parse::<u32>() {
+        Ok(number) if digits.bytes().all(|b| b.is_ascii_digit()) => format!("O{number}"),
+        _ => name.to_owned(),
     }
 }

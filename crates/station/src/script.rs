@@ -1,55 +1,9 @@
 //! The operator's script: one action a line, `#` begins a comment.
 
-/// What to show.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Show {
-    /// The codes in force.
-    Modal,
-    /// Where the axes are.
-    Position,
-    /// What the station is doing.
-    State,
-    /// Something whose display is not built yet.
-    Other(String),
-}
+use dialect::ParameterSetting;
 
-/// How long to run.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Until {
-    /// Until automatic operation stops.
-    Stop,
-    /// Until the program ends.
-    End,
-    /// Until an alarm.
-    Alarm,
-    /// Until nothing more happens by itself.
-    Idle,
-    /// Until the control begins to execute this source line.
-    Line(u64),
-}
-
-/// An action of the operator.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Action {
-    /// `load FILE [as NAME]`
-    Load(String, Option<String>),
-    /// `select NAME`
-    Select(String),
-    /// `cycle-start`
-    CycleStart,
-    /// `reset`
-    Reset,
-    /// `input NAME on|off`
-    Input(String, bool),
-    /// `switch NAME on|off`
-    Switch(String, Option<u8>, bool),
-    /// `show …`
-    Show(Show),
-    /// `run until …`
-    Run(Until),
-    /// An action of the vocabulary that is not built yet, as it was written.
-    NotBuilt(String),
-}
+use crate::action::{Action, OverrideSwitch, Show, Until};
+use crate::setup::OffsetColumn;
 
 /// A line that is no action.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -61,39 +15,44 @@ pub struct ScriptError {
 }
 
 /// Actions of the vocabulary that wait for their time.
-const NOT_BUILT: &[&str] = &[
-    "power-on",
-    "power-off",
-    "mode",
-    "mdi",
-    "feed-hold",
-    "emergency-stop",
-    "release",
-    "key",
-    "override",
-    "offset",
-    "work",
-    "parameter",
-    "variable",
-    "jog",
-    "step",
-    "home",
-];
+const NOT_BUILT: &[&str] = &["key", "jog", "step", "home"];
+
+/// One action of a script.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ScriptLine {
+    /// 1-based line.
+    pub line: usize,
+    /// As it is written, without its comment.
+    pub written: String,
+    /// What it says.
+    pub action: Action,
+}
 
 /// Reads a script: each action with its line.
 ///
 /// # Errors
 /// The first line that is no action.
-pub fn read_script(text: &str) -> Result<Vec<(usize, Action)>, ScriptError> {
+pub fn read_script(text: &str) -> Result<Vec<ScriptLine>, ScriptError> {
     let mut actions = Vec::new();
     for (index, line) in text.lines().enumerate() {
-        let line = line.split('#').next().unwrap_or_default().trim();
-        if !line.is_empty() {
-            let action = read_action(line).map_err(|message| ScriptError { line: index + 1, message })?;
-            actions.push((index + 1, action));
+        let (written, line) = (without_comment(line).trim(), index + 1);
+        if !written.is_empty() {
+            let action = read_action(written).map_err(|message| ScriptError { line, message })?;
+            actions.push(ScriptLine { line, written: written.to_owned(), action });
         }
     }
     Ok(actions)
+}
+
+/// The line up to its comment. In a typed block `#` and a digit, `[` or another `#` is a macro variable.
+fn without_comment(line: &str) -> &str {
+    let typed = line.trim_start().starts_with("mdi ");
+    let comment = line.char_indices().find(|&(at, character)| {
+        let variable =
+            typed && line[at + 1..].starts_with(|next: char| next.is_ascii_digit() || matches!(next, '[' | '#'));
+        character == '#' && !variable
+    });
+    comment.map_or(line, |(at, _)| &line[..at])
 }
 
 fn on_or_off(word: &str) -> Result<bool, String> {
@@ -104,37 +63,121 @@ fn on_or_off(word: &str) -> Result<bool, String> {
     }
 }
 
-fn read_action(line: &str) -> Result<Action, String> {
-    let words: Vec<&str> = line.split_whitespace().collect();
-    Ok(match words[..] {
-        ["load", file] => Action::Load(file.to_owned(), None),
-        ["load", file, "as", name] => Action::Load(file.to_owned(), Some(name.to_owned())),
-        ["select", name] => Action::Select(name.to_owned()),
-        ["cycle-start"] => Action::CycleStart,
-        ["reset"] => Action::Reset,
-        ["input", name, state] => Action::Input(name.to_owned(), on_or_off(state)?),
-        ["switch", name, state] => {
+fn finite(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(format!("`{text}` is no number")),
+    }
+}
+
+fn whole<T: std::str::FromStr>(text: &str, what: &str) -> Result<T, String> {
+    text.parse().map_err(|_| format!("`{text}` is no {what}"))
+}
+
+/// Reads one action.
+///
+/// # Errors
+/// What is wrong with the line.
+pub fn read_action(line: &str) -> Result<Action, String> {
+    let line = line.trim();
+    let (verb, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+    let rest = rest.trim();
+    let words: Vec<&str> = rest.split_whitespace().collect();
+    let no_action = || format!("`{line}` is no action of the operator");
+    Ok(match (verb, &words[..]) {
+        ("power-on", []) => Action::PowerOn,
+        ("power-off", []) => Action::PowerOff,
+        ("load", [file]) => Action::Load((*file).to_owned(), None),
+        ("load", [file, "as", name]) => Action::Load((*file).to_owned(), Some((*name).to_owned())),
+        ("select", [name]) => Action::Select((*name).to_owned()),
+        ("mode", [name]) => Action::Mode((*name).to_owned()),
+        ("mdi", [_, ..]) => Action::Mdi(rest.to_owned()),
+        ("cycle-start", []) => Action::CycleStart,
+        ("feed-hold", []) => Action::FeedHold,
+        ("reset", []) => Action::Reset,
+        ("emergency-stop", []) => Action::EmergencyStop,
+        ("release", []) => Action::Release,
+        ("input", [name, state]) => Action::Input((*name).to_owned(), on_or_off(state)?),
+        ("switch", [name, state]) => {
             let (name, number) = split_switch(name)?;
             Action::Switch(name, number, on_or_off(state)?)
         }
-        ["show", what] => Action::Show(match what {
-            "modal" => Show::Modal,
-            "position" => Show::Position,
-            "state" => Show::State,
-            other => Show::Other(other.to_owned()),
-        }),
-        ["show", what, _] => Action::Show(Show::Other(what.to_owned())),
-        ["run", "until", "stop"] => Action::Run(Until::Stop),
-        ["run", "until", "end"] => Action::Run(Until::End),
-        ["run", "until", "alarm"] => Action::Run(Until::Alarm),
-        ["run", "until", "idle"] => Action::Run(Until::Idle),
-        ["run", "until", "line", number] => {
-            Action::Run(Until::Line(number.parse().map_err(|_| format!("`{number}` is no line number"))?))
-        }
-        ["run", "for", _] => Action::NotBuilt(line.to_owned()),
-        [first, ..] if NOT_BUILT.contains(&first) => Action::NotBuilt(line.to_owned()),
-        _ => return Err(format!("`{line}` is no action of the operator")),
+        ("override", [switch, percent]) => Action::Override(override_switch(switch)?, whole(percent, "percentage")?),
+        ("offset" | "work" | "parameter" | "variable", _) => write(verb, rest, line)?,
+        ("show", [what, of @ ..]) => Action::Show(show(what, &of.join(" ")).ok_or_else(no_action)??),
+        ("run", ["until", until @ ..]) => Action::Run(self::until(until).ok_or_else(no_action)??),
+        ("run", ["for", _]) => Action::NotBuilt(line.to_owned()),
+        (first, [..]) if NOT_BUILT.contains(&first) => Action::NotBuilt(line.to_owned()),
+        _ => return Err(no_action()),
     })
+}
+
+fn override_switch(name: &str) -> Result<OverrideSwitch, String> {
+    [OverrideSwitch::Feed, OverrideSwitch::Rapid, OverrideSwitch::Spindle]
+        .into_iter()
+        .find(|switch| switch.name() == name)
+        .ok_or_else(|| format!("there is no override `{name}`; there are feed, rapid and spindle"))
+}
+
+/// An action that writes a value.
+fn write(verb: &str, rest: &str, line: &str) -> Result<Action, String> {
+    let (name, value) = rest.split_once('=').ok_or_else(|| format!("`{line}` writes no value: {verb} … = …"))?;
+    let (name, value) = (name.trim(), value.trim());
+    Ok(match verb {
+        "offset" => {
+            let (column, number) = split_offset(name)?;
+            Action::Offset(column, number, finite(value)?)
+        }
+        "work" => match name.split_whitespace().collect::<Vec<_>>()[..] {
+            [system, axis] => match axis.as_bytes() {
+                [letter @ b'A'..=b'Z'] => Action::Work(system.to_owned(), *letter, finite(value)?),
+                _ => return Err(format!("`{axis}` is no axis letter")),
+            },
+            _ => return Err(format!("`{line}`: write work G54 X = 100.0")),
+        },
+        "parameter" => {
+            let (name, bit) = split_parameter(name)?;
+            Action::Parameter(ParameterSetting { name, bit, value: value.to_owned() })
+        }
+        _ => {
+            let value = if value == "blank" { None } else { Some(finite(value)?) };
+            Action::Variable(variable(name)?, value)
+        }
+    })
+}
+
+/// A variable's number, with or without its sign.
+fn variable(name: &str) -> Result<u32, String> {
+    whole(name.strip_prefix('#').unwrap_or(name), "variable")
+}
+
+fn show(what: &str, of: &str) -> Option<Result<Show, String>> {
+    Some(Ok(match (what, of) {
+        ("modal", "") => Show::Modal,
+        ("position", "") => Show::Position,
+        ("machine", "") => Show::Machine,
+        ("alarm", "") => Show::Alarm,
+        ("feed", "") => Show::Feed,
+        ("program", "") => Show::Program,
+        ("state", "") => Show::State,
+        (_, "") => return None,
+        ("offset", cell) => return Some(split_offset(cell).map(|(column, number)| Show::Offset(column, number))),
+        ("work", system) => Show::Work(system.to_owned()),
+        ("parameter", name) => return Some(split_parameter(name).map(|(name, bit)| Show::Parameter(name, bit))),
+        ("variable", number) => return Some(variable(number).map(Show::Variable)),
+        _ => return None,
+    }))
+}
+
+fn until(words: &[&str]) -> Option<Result<Until, String>> {
+    Some(Ok(match words {
+        ["stop"] => Until::Stop,
+        ["end"] => Until::End,
+        ["alarm"] => Until::Alarm,
+        ["idle"] => Until::Idle,
+        ["line", number] => return Some(whole(number, "line number").map(Until::Line)),
+        _ => return None,
+    }))
 }
 
 /// A switch as users write it: `optional-stop`, `block-delete=2`.
@@ -152,6 +195,32 @@ pub fn split_switch(text: &str) -> Result<(String, Option<u8>), String> {
     }
 }
 
+/// A cell of the offset memory as users write it: `31`, `H1`, `D1`.
+///
+/// # Errors
+/// It is no number.
+pub fn split_offset(text: &str) -> Result<(OffsetColumn, u32), String> {
+    let (column, digits) = match text.as_bytes().first() {
+        Some(b'H') => (OffsetColumn::Length, &text[1..]),
+        Some(b'D') => (OffsetColumn::Radius, &text[1..]),
+        _ => (OffsetColumn::Common, text),
+    };
+    digits.parse().map(|number| (column, number)).map_err(|_| format!("`{text}` is no offset number"))
+}
+
+/// A parameter as users write it: `6005`, `6005.2` for one bit, a name.
+///
+/// # Errors
+/// What stands behind the point is no bit.
+pub fn split_parameter(text: &str) -> Result<(String, Option<u8>), String> {
+    match text.split_once('.') {
+        Some((number, bit)) if !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()) => {
+            Ok((number.to_owned(), Some(bit.parse().map_err(|_| format!("`{bit}` is no bit"))?)))
+        }
+        _ => Ok((text.to_owned(), None)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -160,16 +229,60 @@ mod tests {
     fn every_line_is_an_action_a_comment_or_an_error() {
         let script =
             "load a.nc as O1  # the part\n\n# nothing\nswitch block-delete=2 on\nrun until line 7\njog X + for 2\n";
+        let read = read_script(script).expect("all are actions");
+        let actions: Vec<_> = read.into_iter().map(|line| (line.line, line.action)).collect();
         assert_eq!(
-            read_script(script),
-            Ok(vec![
+            actions,
+            vec![
                 (1, Action::Load("a.nc".into(), Some("O1".into()))),
                 (4, Action::Switch("block-delete".into(), Some(2), true)),
                 (5, Action::Run(Until::Line(7))),
                 (6, Action::NotBuilt("jog X + for 2".into())),
-            ])
+            ]
         );
         let error = read_script("reset\nswich single-block on").expect_err("no such action");
         assert_eq!(error.line, 2);
+    }
+
+    #[test]
+    fn an_action_in_words_is_read_as_itself() {
+        for line in [
+            "power-on",
+            "mode mdi",
+            "mdi G00 X#1 Y[#2]",
+            "override feed 50",
+            "offset 31 = -10.5",
+            "offset H1 = 2",
+            "work G54 X = 100",
+            "parameter 6005.2 = 1",
+            "parameter cycle clearance = 2",
+            "variable 500 = 1.5",
+            "variable 500 = blank",
+            "show parameter cycle clearance",
+            "show offset 31",
+            "show work G52",
+            "run until line 3",
+            "emergency-stop",
+        ] {
+            assert_eq!(read_action(line).expect(line).to_string(), line);
+        }
+        for line in [
+            "offset 31",
+            "offset x = 1",
+            "work G54 = 1",
+            "override feed fast",
+            "show",
+            "run until",
+            "mdi",
+            "variable 1 = nan",
+        ] {
+            assert!(read_action(line).is_err(), "{line}");
+        }
+    }
+
+    #[test]
+    fn a_variable_in_a_typed_block_is_no_comment() {
+        assert_eq!(without_comment("mdi G00 X#1 # go"), "mdi G00 X#1 ");
+        assert_eq!(without_comment("switch single-block on #1"), "switch single-block on ");
     }
 }

@@ -1,17 +1,27 @@
 //! A program in execution: the stages chained, their questions answered, their events handed out one by one.
 
+mod barriers;
+mod execution;
+mod locks;
+mod states;
+mod typed;
+
 use std::collections::VecDeque;
 
-use base::{Alarm, AxisSet, Place, Point, Seconds};
-use dialect::MMeaning;
-use machine::{Event, EventKind, Machine, ResetCause, StopCause, VirtualMachine};
-use meaning::{Answer, BarrierKind, Close, EndKind, Interpreter, Pull, Quantity, StopKind};
-use motion::{Motion, Timed};
-use path::{Path, Shape, Shaped};
+use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
+use machine::{Event, EventKind, Machine, VirtualMachine};
+use meaning::Interpreter;
+use motion::Motion;
+use path::{Path, Shaped};
 
 use crate::configuration::{Configuration, Inputs};
 use crate::library::{Library, LibraryError};
+use crate::lock::AxisLock;
 use crate::switches::SessionSwitches;
+
+pub use locks::Percents;
+pub use typed::TYPED;
+use typed::Typed;
 
 /// What follows an alarm.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -30,7 +40,7 @@ pub enum Step {
     Event(Event),
     /// The control waits for CYCLE START.
     Stopped,
-    /// Nothing more happens: the program has ended, or an alarm stands.
+    /// Nothing more happens by itself: the program has ended, an alarm stands, or the feed override is at zero.
     Idle,
     /// A text could not be read.
     Failed(LibraryError),
@@ -44,6 +54,14 @@ pub struct Session<L> {
     configuration: Configuration,
     /// The switches, as the operator has set them.
     switches: SessionSwitches,
+    /// Those that act from block to block, as they were when the block in execution began.
+    in_force: SessionSwitches,
+    percents: Percents,
+    /// The program fixes the feed override at 100 %.
+    fixes_override: bool,
+    lock: AxisLock,
+    /// By how much the displays have stood still while the axes moved, mm and degrees.
+    unseen: Point,
     inputs: Inputs,
     after_alarm: AfterAlarm,
     repeats_main: bool,
@@ -51,13 +69,23 @@ pub struct Session<L> {
     /// Codes that begin a block, held until it is sure that the block is not refused.
     codes: Vec<Shaped>,
     bytes: Vec<u8>,
+    typed: Typed,
     /// The next shape has been pulled and not yet executed.
-    held: bool,
+    pulled: bool,
+    /// The block before is done, and nothing of the next one has been executed.
+    between_blocks: bool,
     /// The block at whose beginning the operator asked to be told.
     told: Option<u64>,
     /// The block of which something has been executed last.
     begun: Option<u64>,
     stopped: bool,
+    /// By FEED HOLD.
+    feed_held: bool,
+    powered: bool,
+    /// The next reading of a tape begins behind an end of block.
+    label_skip: bool,
+    /// The emergency stop button is pressed.
+    emergency: bool,
     alarm: Option<Alarm>,
     ended: bool,
     rewound: bool,
@@ -92,16 +120,27 @@ impl<L: Library> Session<L> {
             library,
             configuration,
             switches,
+            in_force: SessionSwitches::default(),
+            percents: Percents::default(),
+            fixes_override: false,
+            lock: AxisLock::default(),
+            unseen: [0.0; AXES],
             inputs,
             after_alarm: AfterAlarm::Stand,
             repeats_main: false,
             events: VecDeque::with_capacity(32),
             codes: Vec::with_capacity(16),
             bytes: Vec::new(),
-            held: false,
+            typed: Typed::default(),
+            pulled: false,
+            between_blocks: true,
             told: None,
             begun: None,
             stopped: false,
+            feed_held: false,
+            powered: true,
+            label_skip: true,
+            emergency: false,
             alarm: None,
             ended: true,
             rewound: true,
@@ -177,11 +216,13 @@ impl<L: Library> Session<L> {
 
     /// Chooses the program to run, which begins at `head` in its text.
     pub fn select(&mut self, source: base::SourceId, name: &str, head: syntax::Cursor) {
-        let (position, refused) = (*self.machine.position(), self.alarm.is_some());
+        self.come_back();
+        let (position, refused) = (self.counted_position(), self.alarm.is_some());
         // What was read ahead of an alarm or of a program broken off was never executed.
         self.interpreter_mut().restore(&position, refused);
         self.interpreter_mut().select_at(source, name, head);
-        self.held = false;
+        self.pulled = false;
+        self.between_blocks = true;
         self.told = None;
         self.rewound = true;
         self.ended = true;
@@ -201,6 +242,18 @@ impl<L: Library> Session<L> {
         self.ended = false;
         self.rewound = false;
         self.stopped = false;
+        self.feed_held = false;
+    }
+
+    /// CYCLE START in tape mode: as [`Session::start`], and a tape that stands in its middle is read on behind the next
+    /// end of block while LABEL SKIP is on.
+    pub fn start_tape(&mut self) {
+        let skips = self.ended && !self.rewound && self.label_skip;
+        self.start();
+        self.label_skip = false;
+        if skips {
+            self.interpreter_mut().skip_label();
+        }
     }
 
     /// The program from its head once more, everything else as it stands.
@@ -234,50 +287,42 @@ impl<L: Library> Session<L> {
         Ok(())
     }
 
+    /// Turns the override switches.
+    pub fn set_percents(&mut self, percents: Percents) {
+        self.percents = percents;
+        self.pass_overrides();
+    }
+
+    /// How the override switches stand.
+    pub fn percents(&self) -> Percents {
+        self.percents
+    }
+
+    /// The speeds in force.
+    pub fn overrides(&self) -> &motion::Overrides {
+        self.motion.overrides()
+    }
+
+    /// What has happened and not been handed out yet, without letting time pass.
+    pub fn next_told(&mut self) -> Option<Event> {
+        self.events.pop_front()
+    }
+
+    /// Parameters have been written: what is set from them is set anew.
+    pub fn take_parameters(&mut self) {
+        self.pass_overrides();
+    }
+
+    /// True if it waits for the feed override to leave zero.
+    pub fn waits_for_feed(&self) -> bool {
+        self.pulled && self.is_running() && !self.stopped && self.is_still(self.motion.upstream.current())
+    }
+
     fn pass_switches(&mut self) {
         let SessionSwitches { optional_stop, block_delete, .. } = self.switches;
         let switches = self.interpreter_mut().switches_mut();
         switches.optional_stop = optional_stop;
         switches.block_delete = block_delete;
-    }
-
-    /// The interrupt input has turned on: if the program allows it, the rest of the block that runs is dropped and the
-    /// program goes on elsewhere.
-    fn interrupt(&mut self) {
-        if !self.is_running() || self.stopped {
-            return;
-        }
-        let (position, place) = (*self.machine.position(), self.place());
-        let begun = !self.held || self.begun == Some(self.motion.upstream.current().block);
-        if !self.interpreter_mut().interrupt(&position, begun) {
-            return;
-        }
-        self.codes.clear();
-        self.motion.upstream.stand_at(&position);
-        self.held = false;
-        self.told = None;
-        if begun {
-            let events = &mut self.events;
-            self.machine.finish_block(&place, &mut |event| events.push_back(event));
-        }
-    }
-
-    /// RESET: whatever runs is dropped, an alarm is cleared, the reset table is applied.
-    pub fn reset(&mut self, cause: ResetCause) {
-        let position = *self.machine.position();
-        let place = self.place();
-        self.machine.drop_codes();
-        self.codes.clear();
-        self.motion.upstream.stand_at(&position);
-        let refused = self.alarm.is_some();
-        self.interpreter_mut().reset(&position, refused);
-        self.held = false;
-        self.told = None;
-        self.alarm = None;
-        self.stopped = false;
-        self.ended = true;
-        let groups = self.interpreter().read_state().groups;
-        self.tell(place, EventKind::Reset { cause, groups });
     }
 
     /// The block being executed.
@@ -308,8 +353,12 @@ impl<L: Library> Session<L> {
                 return Step::Idle;
             }
             if self.pull() {
-                self.held = false;
-                self.execute();
+                self.pulled = self.stands_still() || self.alarm.is_some();
+                if !self.pulled {
+                    self.execute();
+                } else if self.events.is_empty() {
+                    return Step::Idle;
+                }
             }
         }
     }
@@ -320,201 +369,12 @@ impl<L: Library> Session<L> {
         if !self.events.is_empty() || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
             return None;
         }
-        self.held = true;
+        self.pulled = true;
         let shaped = self.motion.upstream.current();
         if self.told == Some(shaped.block) {
             return None;
         }
         self.told = Some(shaped.block);
         Some(shaped.place)
-    }
-
-    /// Pulls the next shape; false if a question had to be answered, a stop was met or there is no more.
-    fn pull(&mut self) -> bool {
-        if self.held {
-            return true;
-        }
-        loop {
-            let barrier = match self.motion.next() {
-                Pull::Item(()) => return true,
-                Pull::End => {
-                    self.ended = true;
-                    return false;
-                }
-                Pull::Barrier(barrier) => barrier,
-            };
-            let answered = match barrier.kind {
-                BarrierKind::NeedBytes { source, offset, len } => {
-                    match self.library.read(source, offset, len, &mut self.bytes) {
-                        Ok(last) => self.motion.resume(barrier.id, Answer::Bytes(&self.bytes, last)),
-                        Err(error) => {
-                            self.failed = Some(error);
-                            return false;
-                        }
-                    }
-                }
-                BarrierKind::NeedProgram { number } => match self.library.find_program(number) {
-                    Ok(Some(source)) => self.motion.resume(barrier.id, Answer::Program(source)),
-                    Ok(None) => self.motion.resume(barrier.id, Answer::NotFound),
-                    Err(error) => {
-                        self.failed = Some(error);
-                        return false;
-                    }
-                },
-                BarrierKind::NeedValue(quantity) => {
-                    let value = self.value_of(quantity);
-                    self.motion.resume(barrier.id, Answer::Value(value))
-                }
-                // The stop was told when its block closed; here CYCLE START has been pressed.
-                BarrierKind::CycleStart => self.motion.resume(barrier.id, Answer::Continue),
-                BarrierKind::SkipPosition => {
-                    let answer = Answer::Stands(*self.machine.position(), self.machine.was_skipped());
-                    self.motion.resume(barrier.id, answer)
-                }
-                BarrierKind::RunAgain => {
-                    let answer = if self.repeats_main { Answer::Continue } else { Answer::Stop };
-                    self.motion.resume(barrier.id, answer)
-                }
-            };
-            debug_assert!(answered.is_ok(), "a barrier is answered in the moment it is met");
-        }
-    }
-
-    /// What a macro reads of the machine.
-    fn value_of(&self, quantity: Quantity) -> f64 {
-        match quantity {
-            Quantity::Inputs => f64::from(self.inputs.interface),
-            Quantity::Clock => self.machine.time().0,
-            Quantity::Position(axis) => self.machine.position().get(usize::from(axis)).copied().unwrap_or(0.0),
-            // The virtual machine follows its command exactly.
-            Quantity::Deviation(_) => 0.0,
-        }
-    }
-
-    fn execute(&mut self) {
-        self.begun = Some(self.motion.upstream.current().block);
-        let shaped = self.motion.upstream.current();
-        let (place, stop_point) = (shaped.place, shaped.stop_point);
-        let stop = if let Shape::Await(stop) = shaped.shape { stop } else { None };
-        match shaped.shape {
-            Shape::Alarm(alarm) => return self.raise(alarm),
-            Shape::Close(close) => {
-                self.send_codes();
-                return self.close(close, place);
-            }
-            Shape::Code(code) if !code.after_motion => return self.codes.push(*shaped),
-            _ => {}
-        }
-        if self.after_alarm == AfterAlarm::GoOn {
-            self.pass_unknown();
-        }
-        if !self.codes.is_empty() {
-            if let Err(refusal) = self.machine.check(&self.motion.current()) {
-                return self.raise(self.at_the_word(refusal.alarm));
-            }
-            self.send_codes();
-        }
-        let events = &mut self.events;
-        match self.machine.execute(&self.motion.current(), &mut |event| events.push_back(event)) {
-            Ok(()) if stop_point && self.switches.single_block && !self.ignores_single_block() => {
-                self.stop(place, StopKind::SingleBlock)
-            }
-            Ok(()) => {}
-            Err(refusal) => self.raise(self.at_the_word(refusal.alarm)),
-        }
-        if let Some(kind) = stop {
-            self.stop(place, kind);
-        }
-    }
-
-    /// Sends the codes that begin the block.
-    fn send_codes(&mut self) {
-        let events = &mut self.events;
-        for shaped in self.codes.drain(..) {
-            let timed = Timed { shaped: &shaped, duration: Seconds(0.0), length: 0.0, feed: 0.0 };
-            // A code is no move, so the machine has nothing to refuse.
-            let _ = self.machine.execute(&timed, &mut |event| events.push_back(event));
-        }
-    }
-
-    /// Checking on: the machine learns which axes' places are unknown in the block it executes.
-    fn pass_unknown(&mut self) {
-        if let Some(command) = self.interpreter().executing() {
-            let unknown = self.unknown.without(command.absolute);
-            let axes = unknown.or(command.after.unknown.axes);
-            self.unknown = unknown;
-            self.machine.set_unknown(axes);
-        }
-    }
-
-    /// An alarm about an axis points at the axis' word.
-    fn at_the_word(&self, mut alarm: Alarm) -> Alarm {
-        if let (Some(axis), Some(command)) = (alarm.axis, self.interpreter().executing()) {
-            alarm.span = command.axis_span(usize::from(axis));
-        }
-        alarm
-    }
-
-    fn raise(&mut self, alarm: Alarm) {
-        self.codes.clear();
-        self.tell(alarm.place, EventKind::Alarm(alarm));
-        match self.after_alarm {
-            AfterAlarm::Stand => self.alarm = Some(alarm),
-            AfterAlarm::GoOn => {
-                if let Some(axis) = alarm.axis {
-                    let axes = AxisSet::only(usize::from(axis));
-                    self.unknown = self.unknown.or(axes);
-                    self.interpreter_mut().forget_axes(axes);
-                }
-            }
-        }
-    }
-
-    fn stop(&mut self, place: Place, kind: StopKind) {
-        self.stopped = true;
-        self.tell(place, EventKind::Stop(StopCause::Program(kind)));
-    }
-
-    fn close(&mut self, close: Close, place: Place) {
-        let events = &mut self.events;
-        self.machine.finish_block(&place, &mut |event| events.push_back(event));
-        match close {
-            Close::Stop(kind) => self.stop(place, kind),
-            Close::End(kind) => self.end(kind, place),
-            // The start of the program and the end of its text are no blocks.
-            Close::Next if self.switches.single_block && place.line > 0 && !self.ignores_single_block() => {
-                self.stop(place, StopKind::SingleBlock)
-            }
-            Close::Next => {}
-        }
-    }
-
-    /// #3003 bit 0: the program keeps the single-block switch from acting.
-    fn ignores_single_block(&self) -> bool {
-        self.interpreter().executing().is_some_and(|command| command.after.block_control & 1 != 0)
-    }
-
-    fn end(&mut self, kind: EndKind, place: Place) {
-        let reset = self.input(kind, self.inputs.eop, &self.configuration.machine.wiring.eop);
-        let rewind = kind == EndKind::M99 || self.input(kind, self.inputs.rwd, &self.configuration.machine.wiring.rwd);
-        let groups = self.interpreter().executing_state().groups;
-        let to = *self.machine.position();
-        self.tell(place, EventKind::End { kind, rewind, reset, groups, to });
-        self.ended = true;
-        self.rewound = rewind;
-        if reset {
-            self.reset(ResetCause::ProgramEnd);
-        }
-    }
-
-    /// Whether an input is on at the end of a program: held by hand, or driven by the end code's decoded line.
-    fn input(&self, kind: EndKind, by_hand: Option<bool>, wired: &[String]) -> bool {
-        let meaning = match kind {
-            EndKind::M02 => MMeaning::ProgramEnd,
-            EndKind::M30 => MMeaning::TapeEnd,
-            EndKind::M99 | EndKind::Text | EndKind::Loop => return false,
-        };
-        let line = self.configuration.control.m_of(meaning).and_then(|row| row.decoded.as_ref());
-        by_hand.unwrap_or_else(|| line.is_some_and(|line| wired.contains(line)))
     }
 }

@@ -1,6 +1,6 @@
-//! The operator's switches, as far as they are built.
+//! The operator's switches.
 
-/// The operator's switches.
+/// The operator's switches, on or off.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct SessionSwitches {
     /// M01 stops.
@@ -9,7 +9,23 @@ pub struct SessionSwitches {
     pub single_block: bool,
     /// Block delete 1 to 9, bit 0 for the first.
     pub block_delete: u16,
+    /// Feed moves run at the jog speed.
+    pub dry_run: bool,
+    /// No axis moves, the displays run.
+    pub machine_lock: bool,
+    /// The axes move, the displays stand.
+    pub display_lock: bool,
+    /// M, S, T and B are not sent, except the M codes of the control.
+    pub aux_lock: bool,
+    /// Z does not move, its display runs.
+    pub z_cancel: bool,
+    /// Moves by hand count into the program's coordinates. Without moves by hand it has nothing to do.
+    pub manual_absolute: bool,
 }
+
+/// Every switch by its name; `block-delete` may take a number.
+const NAMES: &str = "optional-stop, block-delete[=n], single-block, dry-run, machine-lock, display-lock, aux-lock, \
+                     z-cancel, manual-absolute";
 
 impl SessionSwitches {
     /// Turns a switch by its name.
@@ -17,22 +33,23 @@ impl SessionSwitches {
     /// # Errors
     /// Why not, in words.
     pub fn set(&mut self, name: &str, number: Option<u8>, on: bool) -> Result<(), String> {
-        match name {
-            "optional-stop" => self.optional_stop = on,
-            "single-block" => self.single_block = on,
+        let switch = match name {
             "block-delete" => {
                 let bit = 1 << (number.unwrap_or(1).clamp(1, 9) - 1);
                 self.block_delete = if on { self.block_delete | bit } else { self.block_delete & !bit };
+                return Ok(());
             }
-            "dry-run" | "machine-lock" | "display-lock" | "aux-lock" | "z-cancel" | "manual-absolute" => {
-                return Err(format!("the switch `{name}` is not built yet"));
-            }
-            _ => {
-                return Err(format!(
-                    "there is no switch `{name}`; built are optional-stop, block-delete[=n], single-block"
-                ));
-            }
-        }
+            "optional-stop" => &mut self.optional_stop,
+            "single-block" => &mut self.single_block,
+            "dry-run" => &mut self.dry_run,
+            "machine-lock" => &mut self.machine_lock,
+            "display-lock" => &mut self.display_lock,
+            "aux-lock" => &mut self.aux_lock,
+            "z-cancel" => &mut self.z_cancel,
+            "manual-absolute" => &mut self.manual_absolute,
+            _ => return Err(format!("there is no switch `{name}`; the switches are {NAMES}")),
+        };
+        *switch = on;
         Ok(())
     }
 }

@@ -1,15 +1,14 @@
-//! An operator who does anything at any time: never a panic, and always a way on.
+//! An operator who does anything at any time: never a panic, always a way on, and what is refused changes nothing.
 
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
 mod watch;
 
-use base::SourceId;
-use machine::EventKind;
+use dialect::ParameterSetting;
+use machine::{Event, EventKind};
 use proptest::prelude::*;
 use proptest::sample::select;
-use station::{Action, Loaded, Operator, Said, Session, Setup, Show, Until};
-use syntax::Cursor;
+use station::{Action, OffsetColumn, Operator, OverrideSwitch, Said, Session, Setup, Show, Until, read_action};
 use watch::{Texts, Watch, configuration, machine};
 
 /// Programs with all that can hold one up, and (first) one that works whatever came before it.
@@ -25,14 +24,74 @@ const PROGRAMS: &[&str] = &[
     "M99P7\nN7M02\nN8G90G00X3.\nM99P8\n",
 ];
 
+/// Blocks to type.
+const TYPED: &[&str] =
+    &["G91G00X1.", "G01X2.F200;Y1.", "M03S100", "M00", "G200", "X#1", "M98P4", "G90G02X5.R3.F50", "M30", ";"];
+
 /// More than proptest's own number of cases: each is cheap.
 fn config() -> ProptestConfig {
     let default = ProptestConfig::default();
     ProptestConfig { cases: default.cases.max(1000), ..default }
 }
 
+fn names(names: &'static [&'static str]) -> impl Strategy<Value = String> {
+    select(names.to_vec()).prop_map(str::to_owned)
+}
+
+/// Actions that a panel has without a number of their own.
+fn button() -> impl Strategy<Value = Action> {
+    prop_oneof![
+        1 => Just(Action::PowerOn),
+        1 => Just(Action::PowerOff),
+        10 => Just(Action::CycleStart),
+        2 => Just(Action::FeedHold),
+        4 => Just(Action::Reset),
+        1 => Just(Action::EmergencyStop),
+        2 => Just(Action::Release),
+        1 => Just(Action::NotBuilt("jog X + for 2".to_owned())),
+    ]
+}
+
+fn write() -> impl Strategy<Value = Action> {
+    let number = select(vec![-1.0, 0.0, 10.0, 1e4, 1e9]);
+    let percent = select(vec![0, 10, 25, 50, 55, 100, 200]);
+    let switch = select(vec![OverrideSwitch::Feed, OverrideSwitch::Rapid, OverrideSwitch::Spindle]);
+    prop_oneof![
+        (select(vec!["EOP", "RWD", "nothing"]), any::<bool>())
+            .prop_map(|(name, on)| Action::Input(name.to_owned(), on)),
+        (
+            names(&[
+                "single-block",
+                "optional-stop",
+                "block-delete",
+                "dry-run",
+                "machine-lock",
+                "display-lock",
+                "aux-lock",
+                "z-cancel",
+                "manual-absolute",
+                "nothing"
+            ]),
+            any::<bool>()
+        )
+            .prop_map(|(name, on)| Action::Switch(name, None, on)),
+        (switch, percent).prop_map(|(switch, percent)| Action::Override(switch, percent)),
+        (select(vec![0, 31, 100]), number.clone()).prop_map(|(cell, mm)| Action::Offset(
+            OffsetColumn::Common,
+            cell,
+            mm
+        )),
+        (names(&["G52", "G54", "G60"]), select(b"XQ".to_vec()), number.clone())
+            .prop_map(|(system, axis, mm)| Action::Work(system, axis, mm)),
+        (names(&["6005", "6001", "jog speed", "none"]), names(&["0", "1", "00000100", "x"]))
+            .prop_map(|(name, value)| Action::Parameter(ParameterSetting { name, bit: None, value })),
+        (select(vec![1, 100, 500, 4001, 9999]), prop::option::of(number))
+            .prop_map(|(variable, value)| Action::Variable(variable, value)),
+    ]
+}
+
 fn action() -> impl Strategy<Value = Action> {
-    let name = prop_oneof![9 => (0..PROGRAMS.len()).prop_map(|n| n.to_string()), 1 => Just("none".to_owned())];
+    let program = prop_oneof![9 => (0..PROGRAMS.len()).prop_map(|n| format!("P{n}")), 1 => Just("none".to_owned())];
     let until = prop_oneof![
         Just(Until::Stop),
         Just(Until::End),
@@ -40,23 +99,26 @@ fn action() -> impl Strategy<Value = Action> {
         Just(Until::Idle),
         (0u64..8).prop_map(Until::Line)
     ];
+    let show =
+        select(vec![Show::Modal, Show::Position, Show::Machine, Show::Alarm, Show::Feed, Show::Program, Show::State]);
     prop_oneof![
-        2 => name.prop_map(Action::Select),
-        4 => Just(Action::CycleStart),
-        2 => Just(Action::Reset),
-        1 => (select(vec!["EOP", "RWD", "skip"]), any::<bool>()).prop_map(|(name, on)| Action::Input(name.to_owned(), on)),
-        2 => (select(vec!["single-block", "optional-stop", "block-delete", "dry-run"]), any::<bool>())
-            .prop_map(|(name, on)| Action::Switch(name.to_owned(), None, on)),
-        6 => until.prop_map(Action::Run),
-        1 => select(vec![Show::Modal, Show::Position, Show::State]).prop_map(Action::Show),
-        1 => Just(Action::NotBuilt("jog X + for 2".to_owned())),
+        2 => program.prop_map(Action::Select),
+        8 => button(),
+        3 => write(),
+        2 => names(&["memory", "mdi", "tape", "jog", "none"]).prop_map(Action::Mode),
+        2 => names(TYPED).prop_map(Action::Mdi),
+        8 => until.prop_map(Action::Run),
+        1 => show.prop_map(Action::Show),
+        1 => (0..PROGRAMS.len()).prop_map(|n| Action::Load(n.to_string(), None)),
     ]
 }
 
 struct Station {
     operator: Operator<Texts>,
     watch: Watch,
-    events: Vec<EventKind>,
+    events: Vec<Event>,
+    /// The last action was refused.
+    refused: bool,
 }
 
 impl Station {
@@ -64,24 +126,67 @@ impl Station {
         let texts = Texts { texts: PROGRAMS.iter().map(|text| text.as_bytes().to_vec()).collect(), ..Texts::default() };
         let session = Session::new(configuration(machine("stock-vmc", None), &Setup::default()), texts);
         let watch = Watch::new(&session, true);
-        Station { operator: Operator::new(session), watch, events: Vec::new() }
+        let mut station = Station { operator: Operator::new(session), watch, events: Vec::new(), refused: false };
+        for text in 0..PROGRAMS.len() {
+            station.perform(&Action::Load(text.to_string(), Some(format!("P{text}"))));
+        }
+        station
     }
 
     fn perform(&mut self, action: &Action) {
-        let Station { operator, watch, events } = self;
-        let find = |_: &mut Texts, name: &str| {
-            let index = name.parse().ok()?;
-            Some(Loaded { source: SourceId(index), name: format!("P{index}"), head: Cursor::HEAD })
-        };
-        let mut tell = |session: &mut Session<Texts>, said: Said| {
-            if let Said::Event(event) = said {
+        let Station { operator, watch, events, refused } = self;
+        *refused = false;
+        let mut tell = |session: &mut Session<Texts>, said: Said| match said {
+            Said::Event(event) => {
                 watch.see(&event, session);
-                events.push(event.kind);
+                events.push(event);
             }
+            Said::Refused { .. } => *refused = true,
+            Said::Shown { .. } => {}
         };
-        operator.perform(action, find, &mut tell).expect("texts in memory can be read");
+        operator.perform(action, &mut tell).expect("texts in memory can be read");
+    }
+
+    fn script(&mut self, lines: &[&str]) {
+        lines.iter().for_each(|line| self.perform(&read_action(line).expect(line)));
+    }
+
+    fn shows(&mut self, what: &str) -> String {
+        let Ok(Action::Show(show)) = read_action(&format!("show {what}")) else { panic!("{what}") };
+        format!("{:?}", self.operator.display(&show))
     }
 }
+
+/// Everything that the panel can show.
+const PAGES: &[&str] = &[
+    "modal",
+    "position",
+    "machine",
+    "alarm",
+    "feed",
+    "program",
+    "state",
+    "offset 31",
+    "work G52",
+    "work G54",
+    "parameter 6005",
+    "parameter 6001",
+    "parameter jog speed",
+];
+
+/// Brings any station back to where nothing is in the way.
+const TIDY: &[&str] = &[
+    "power-on",
+    "release",
+    "input EOP on",
+    "input RWD on",
+    "switch single-block off",
+    "switch machine-lock off",
+    "switch z-cancel off",
+    "override feed 100",
+    "reset",
+    "mode memory",
+];
 
 proptest! {
     #![proptest_config(config())]
@@ -90,35 +195,84 @@ proptest! {
     fn whatever_was_done_reset_and_another_program_go_on(actions in prop::collection::vec(action(), 0..25)) {
         let mut station = Station::new();
         actions.iter().for_each(|action| station.perform(action));
-        for input in ["EOP", "RWD"] {
-            station.perform(&Action::Input(input.to_owned(), true));
-        }
-        station.perform(&Action::Switch("single-block".to_owned(), None, false));
-        station.perform(&Action::Reset);
-        let counts = station.operator.session.position().map(|mm| (mm * 1e6).round());
+        station.script(TIDY);
+        let counts = station.operator.session.counted_position().map(|mm| (mm * 1e6).round());
         prop_assert_eq!(station.operator.session.interpreter().read_state().machine, counts, "the control knows where the axes are");
         prop_assert!(station.operator.session.alarm().is_none());
         prop_assert!(!station.operator.session.is_running());
-        station.perform(&Action::Select("0".to_owned()));
+        // What a lock has kept back is made up for by the return to the reference point, which power-on asks for anyway.
+        station.script(&["power-off", "power-on", "mode mdi", "mdi G91G28X0Y0Z0", "cycle-start", "run until idle", "mode memory", "select P0"]);
         station.events.clear();
-        station.perform(&Action::CycleStart);
-        station.perform(&Action::Run(Until::Idle));
-        prop_assert!(matches!(station.events.first(), Some(EventKind::Start(_))), "{:?}", station.events);
-        prop_assert!(station.events.iter().any(|kind| matches!(kind, EventKind::End { .. })), "{:?}", station.events);
+        station.script(&["cycle-start", "run until idle"]);
+        let kinds: Vec<EventKind> = station.events.iter().map(|event| event.kind).collect();
+        prop_assert!(matches!(kinds.first(), Some(EventKind::Start(_))), "{:?}", kinds);
+        prop_assert!(kinds.iter().any(|kind| matches!(kind, EventKind::End { .. })), "{:?}", kinds);
         prop_assert_eq!(&station.operator.session.position()[..3], &[1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn what_is_refused_changes_nothing(actions in prop::collection::vec(action(), 0..25)) {
+        let (mut all, mut taken) = (Station::new(), Station::new());
+        for action in &actions {
+            let before: Vec<String> = PAGES.iter().map(|page| all.shows(page)).collect();
+            let (events, time) = (all.events.len(), all.operator.session.time());
+            all.perform(action);
+            if all.refused {
+                let after: Vec<String> = PAGES.iter().map(|page| all.shows(page)).collect();
+                prop_assert_eq!(before, after, "{}", action);
+                prop_assert_eq!((events, time), (all.events.len(), all.operator.session.time()), "{}", action);
+            } else {
+                taken.perform(action);
+                prop_assert!(!taken.refused, "{}", action);
+            }
+        }
+        prop_assert_eq!(all.events, taken.events);
     }
 }
 
 /// What was read ahead of an alarm was never executed: it is not in force afterwards, whatever is pressed first.
 #[test]
 fn blocks_read_ahead_of_an_alarm_leave_nothing_behind() {
-    let groups_after = |actions: &[Action]| {
+    let groups_after = |lines: &[&str]| {
         let mut station = Station::new();
-        actions.iter().for_each(|action| station.perform(action));
+        station.script(lines);
         station.operator.session.interpreter().executing_state().groups
     };
-    let until_alarm = [Action::Select("2".to_owned()), Action::CycleStart, Action::Run(Until::Alarm)];
-    let reset_first = groups_after(&[&until_alarm[..], &[Action::Reset, Action::Select("0".to_owned())]].concat());
-    let select_first = groups_after(&[&until_alarm[..], &[Action::Select("0".to_owned()), Action::Reset]].concat());
+    let until_alarm = ["select P2", "cycle-start", "run until alarm"];
+    let reset_first = groups_after(&[&until_alarm[..], &["reset", "select P0"]].concat());
+    let select_first = groups_after(&[&until_alarm[..], &["select P0", "reset"]].concat());
     assert_eq!(select_first, reset_first);
+}
+
+/// After a run under MACHINE LOCK the axes stand elsewhere than the control counts; G28 brings them together again, also
+/// where the control thinks that they stand on the reference point already.
+#[test]
+fn the_reference_point_is_a_place_on_the_machine() {
+    for under_lock in ["G91G00X50.", "G91G00X50.;X-50."] {
+        for between in ["G91G00X-7.", "G90G53G00X0"] {
+            let mut station = Station::new();
+            station.script(&["mode mdi", "switch machine-lock on"]);
+            station.perform(&Action::Mdi(under_lock.to_owned()));
+            station.script(&["cycle-start", "run until idle", "switch machine-lock off"]);
+            station.perform(&Action::Mdi(between.to_owned()));
+            station.script(&["cycle-start", "run until idle", "mdi G91G28X0", "cycle-start", "run until idle"]);
+            let session = &station.operator.session;
+            assert_eq!((session.position()[0], session.counted_position()[0]), (0.0, 0.0), "{under_lock} {between}");
+        }
+    }
+}
+
+/// Blocks typed in MDI leave the program in memory where it was.
+#[test]
+fn typed_blocks_leave_the_program_where_it_was() {
+    let places = |lines: &[&str]| {
+        let mut station = Station::new();
+        station.script(lines);
+        station.events.clear();
+        station.script(&["mode memory", "cycle-start", "run until stop"]);
+        station.events.iter().map(|event| event.place).collect::<Vec<_>>()
+    };
+    let stopped = ["select P1", "cycle-start", "run until stop", "reset"];
+    let typed = ["mode mdi", "mdi M03S100", "cycle-start", "run until idle"];
+    assert_eq!(places(&[&stopped[..], &typed[..]].concat()), places(&stopped));
 }

@@ -12,10 +12,14 @@ pub(super) struct GroupDraft {
     pub name: String,
     pub power_on: RuleDraft,
     pub reset: RuleDraft,
+    pub emergency_stop: RuleDraft,
+    pub program_end: RuleDraft,
+    pub stored: bool,
     pub origin: Origin,
 }
 
 /// A rule whose codes are still names; the parameter is its name, its bits, a code for each value.
+#[derive(Clone)]
 pub(super) struct RuleDraft {
     pub code: String,
     pub parameter: Option<(String, Vec<u8>, Vec<String>)>,
@@ -39,11 +43,20 @@ fn rule(row: &mut Table, code: &'static str, parameter: &'static str) -> RuleDra
 
 pub(super) fn group(row: &mut Table) -> GroupDraft {
     let number = row.integer("number").and_then(|n| u8::try_from(n).ok()).unwrap_or(0);
+    let reset = rule(row, "reset", "reset_parameter");
+    // What is not written is as after the RESET key.
+    let mut as_reset = |key, parameter| {
+        let written = row.place_of(key).is_some();
+        if written { rule(row, key, parameter) } else { reset.clone() }
+    };
     GroupDraft {
         number,
+        emergency_stop: as_reset("emergency_stop", "emergency_stop_parameter"),
+        program_end: as_reset("program_end", "program_end_parameter"),
+        reset,
         name: row.required_string("name"),
         power_on: rule(row, "power_on", "power_on_parameter"),
-        reset: rule(row, "reset", "reset_parameter"),
+        stored: row.boolean("stored").unwrap_or(false),
         origin: origin(row),
     }
 }

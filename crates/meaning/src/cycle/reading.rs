@@ -168,7 +168,7 @@ impl Reading<'_> {
             shift_axes: [drilling as u8; 2],
             restart: None,
             by_hand: false,
-            feed: Feed { mm_per_min: 0.0, exact_stop: false, tapping: false },
+            feed: Feed { mm_per_min: 0.0, exact_stop: false, tapping: false, per_revolution: false },
             rapid: RapidKind::Checked,
         };
         if let Some(cycle) = cycle {

@@ -44,6 +44,22 @@ impl Reader {
         self.block.rewind && (frame.begun || frame.opened)
     }
 
+    /// Passes over the block at hand if it counts as the label of a tape; a text has none.
+    pub(super) fn passes_label(&mut self, frame: &Frame) -> bool {
+        if !self.passes_over || self.calls.frames.len() > 1 {
+            return false;
+        }
+        self.passes_over = false;
+        let is_tape = matches!(self.supply.format(frame.source), Some(tape::Format::Tape(_)));
+        if !is_tape || self.block.rewind {
+            return false;
+        }
+        if let Some(frame) = self.calls.frames.last_mut() {
+            frame.cursor = self.block.next;
+        }
+        true
+    }
+
     /// What is wrong with the rows of the block at hand, of a source that is a tape.
     ///
     /// The control checks every row it takes in, those of comments and of skipped words too, and counts the rows of a

@@ -6,12 +6,15 @@ use std::sync::{Arc, LazyLock};
 
 use base::{Condition, Place, Point, SourceId, Span};
 use dialect::Control;
-use machine::{Event, EventKind, MachineFile, builtin_machine, read_machine};
-use station::{Configuration, Library, LibraryError, Session, Setup, Step};
+use machine::{Event, EventKind, MachineFile, StopCause, builtin_machine, read_machine};
+use station::{Configuration, Library, LibraryError, Session, Setup, Shelf, Step, TYPED};
 use syntax::Cursor;
 
 /// Positions are exact to less than this, mm.
 pub const EXACTNESS_MM: f64 = 1e-9;
+
+/// Alarms that stand in no block.
+const FROM_THE_PANEL: &[Condition] = &[Condition::EmergencyStop, Condition::MemoryFull, Condition::ProgramProtected];
 
 /// Times in a row that the same bytes may be asked for before it counts as standing still.
 const MOST_AGAIN: u32 = 100;
@@ -66,6 +69,21 @@ impl Library for Texts {
 
     fn find_program(&mut self, number: u32) -> Result<Option<SourceId>, LibraryError> {
         Ok(self.programs.iter().find(|(known, _)| *known == number).map(|&(_, source)| source))
+    }
+}
+
+impl Shelf for Texts {
+    /// A file's name is the number of its text.
+    fn open_file(&mut self, file: &str) -> Result<(SourceId, String), LibraryError> {
+        match file.parse::<u32>() {
+            Ok(text) if (text as usize) < self.texts.len() => Ok((SourceId(text), format!("P{text}"))),
+            _ => Err(LibraryError(format!("there is no text {file}"))),
+        }
+    }
+
+    fn keep_in_memory(&mut self, number: u32, source: SourceId) {
+        self.programs.retain(|(known, _)| *known != number);
+        self.programs.push((number, source));
     }
 }
 
@@ -160,9 +178,11 @@ impl Watch {
             assert!(event.time.0 >= self.time, "time runs on: {} {event:?}", self.time);
             self.time = event.time.0;
         }
-        // The start of a program is no block of it, and RESET needs none.
+        // The start of a program is no block of it, and the operator's buttons need none.
         let may_be_placeless =
-            matches!(event.kind, EventKind::Start(_) | EventKind::BlockDone | EventKind::Reset { .. });
+            matches!(event.kind, EventKind::Start(_) | EventKind::BlockDone | EventKind::Reset { .. })
+                || matches!(event.kind, EventKind::Stop(StopCause::FeedHold))
+                || matches!(event.kind, EventKind::Alarm(alarm) if FROM_THE_PANEL.contains(&alarm.condition));
         let placeless = may_be_placeless && event.place.line == 0;
         if !placeless {
             self.check_place(event, session);
@@ -196,7 +216,10 @@ impl Watch {
 
     fn check_place(&self, event: &Event, session: &Session<Texts>) {
         let Place { source, line, line_start, block, .. } = event.place;
-        let text = session.library().texts.get(source.0 as usize).expect("the source is one of the texts");
+        let text = match source {
+            TYPED => session.typed_text(),
+            source => session.library().texts.get(source.0 as usize).expect("the source is one of the texts"),
+        };
         assert!(line >= 1 && line_start <= block.start, "{event:?}");
         assert!(block.end() <= text.len() as u64, "the block lies in its text: {event:?}");
         if let EventKind::Alarm(alarm) = &event.kind {

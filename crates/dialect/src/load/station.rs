@@ -1,0 +1,150 @@
+//! `station.toml`: modes, override switches, what becomes of states.
+
+use data::{DataError, Table};
+
+use super::{ControlFiles, origin, parameter_index, refuse};
+use crate::occasion::{Fate, StateItem, StateRow};
+use crate::row::{OptionRow, ParameterRow};
+use crate::station::{ModeKind, ModeRow, StationTable};
+
+/// The station whose parameters are still names.
+pub(super) struct StationDraft {
+    pub modes: Vec<ModeRow>,
+    pub overrides: [Vec<u16>; 3],
+    /// Names of the parameters: jog speed, whether it replaces the rapid rate, lowest rapid rate.
+    pub parameters: [String; 3],
+    pub programs: usize,
+    pub more: Option<String>,
+    pub protection: String,
+    pub protected: Vec<[u32; 2]>,
+    pub states: Vec<StateRow>,
+}
+
+pub(super) fn station(root: &mut Table) -> StationDraft {
+    root.require("overrides");
+    let overrides = root.table("overrides", |t| ["feed", "rapid", "spindle"].map(|key| steps(t, key)));
+    root.require("speeds");
+    let parameters =
+        root.table("speeds", |t| ["jog", "dry_run_rapid", "lowest_rapid"].map(|key| t.required_string(key)));
+    root.require("memory");
+    let memory = root.table("memory", |t| {
+        let programs = t.integer("programs").and_then(|n| usize::try_from(n).ok()).unwrap_or(usize::MAX);
+        (programs, t.string("more"), t.required_string("protection"), ranges(t, "protected"))
+    });
+    let (programs, more, protection, protected) = memory.unwrap_or_default();
+    let modes = root.tables("mode", mode);
+    if modes.is_empty() {
+        root.error_here("a station has at least one [[mode]]");
+    }
+    let mut seen = Vec::new();
+    StationDraft {
+        modes,
+        overrides: overrides.unwrap_or_default(),
+        parameters: parameters.unwrap_or_default(),
+        programs,
+        more,
+        protection,
+        protected,
+        states: root.tables("state", |row| state(row, &mut seen)),
+    }
+}
+
+fn steps(table: &mut Table, key: &'static str) -> Vec<u16> {
+    let place = table.place_of(key);
+    let steps: Vec<u16> =
+        table.integers(key).unwrap_or_default().into_iter().filter_map(|n| u16::try_from(n).ok()).collect();
+    if let (false, Some(place)) = (steps.is_sorted() && steps.last().is_none_or(|&n| n <= 1000), place) {
+        table.error(place, format!("{key} lists percents from 0 to 1000, the lowest first"));
+    }
+    steps
+}
+
+/// Ranges of program numbers, `8000-8999`, one for each bit of a parameter.
+fn ranges(table: &mut Table, key: &'static str) -> Vec<[u32; 2]> {
+    let place = table.place_of(key);
+    let written = table.strings(key).unwrap_or_default();
+    let read = |text: &String| {
+        let (low, high) = text.split_once('-')?;
+        let range = [low.parse().ok()?, high.parse().ok()?];
+        (range[0] <= range[1]).then_some(range)
+    };
+    let ranges: Vec<[u32; 2]> = written.iter().filter_map(read).collect();
+    if let (true, Some(place)) = (ranges.len() != written.len() || ranges.len() > 8, place) {
+        table.error(place, format!("{key} lists up to eight ranges of program numbers, as in \"8000-8999\""));
+    }
+    ranges
+}
+
+fn mode(row: &mut Table) -> ModeRow {
+    const KINDS: &[(&str, ModeKind)] = &[
+        ("memory", ModeKind::Memory),
+        ("tape", ModeKind::Tape),
+        ("mdi", ModeKind::Mdi),
+        ("edit", ModeKind::Edit),
+        ("manual", ModeKind::Manual),
+    ];
+    row.require("kind");
+    ModeRow {
+        name: row.required_string("name"),
+        kind: row.choice("kind", KINDS).unwrap_or(ModeKind::Manual),
+        text: row.required_string("text"),
+        origin: origin(row),
+    }
+}
+
+fn state(row: &mut Table, seen: &mut Vec<StateItem>) -> StateRow {
+    const FATES: &[(&str, Fate)] = &[("keep", Fate::Keep), ("initial", Fate::Initial)];
+    row.require("item");
+    row.require("power_on");
+    row.require("reset");
+    let place = row.place_of("item").unwrap_or_else(|| row.range());
+    let item = row.choice("item", StateItem::TABLE);
+    if let Some(item) = item {
+        if seen.contains(&item) {
+            row.error(place, "this state has a row already");
+        }
+        seen.push(item);
+    }
+    let reset = row.choice("reset", FATES).unwrap_or(Fate::Keep);
+    StateRow {
+        item: item.unwrap_or(StateItem::Feed),
+        initial: row.required_string("initial"),
+        fates: [
+            row.choice("power_on", FATES).unwrap_or(Fate::Initial),
+            reset,
+            row.choice("emergency_stop", FATES).unwrap_or(reset),
+            row.choice("program_end", FATES).unwrap_or(reset),
+        ],
+        kept_by: row.string("kept_by"),
+        origin: origin(row),
+    }
+}
+
+/// The station with its parameters and options found.
+pub(super) fn resolve(
+    files: &ControlFiles,
+    draft: StationDraft,
+    parameters: &[ParameterRow],
+    options: &[OptionRow],
+) -> Result<StationTable, Vec<DataError>> {
+    let option = |name: &String| {
+        options
+            .iter()
+            .position(|option| option.name == *name)
+            .ok_or_else(|| refuse(files, "station.toml", format!("there is no option `{name}` in control.toml")))
+    };
+    draft.states.iter().filter_map(|row| row.kept_by.as_ref()).try_for_each(|name| option(name).map(|_| ()))?;
+    let [jog_speed, dry_run_rapid, lowest_rapid] = &draft.parameters;
+    Ok(StationTable {
+        jog_speed: parameter_index(files, parameters, jog_speed)?,
+        dry_run_rapid: parameter_index(files, parameters, dry_run_rapid)?,
+        lowest_rapid: parameter_index(files, parameters, lowest_rapid)?,
+        most_programs: draft.programs,
+        more_programs: draft.more.as_ref().map(option).transpose()?,
+        protection: parameter_index(files, parameters, &draft.protection)?,
+        protected: draft.protected,
+        modes: draft.modes,
+        overrides: draft.overrides,
+        states: draft.states,
+    })
+}

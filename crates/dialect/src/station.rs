@@ -1,0 +1,64 @@
+//! The operator's station of a control: its modes, the steps of its override switches, the speeds it is set to.
+
+use crate::occasion::StateRow;
+use crate::row::Origin;
+
+/// What CYCLE START does in a mode.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ModeKind {
+    /// Runs the selected program from memory.
+    Memory,
+    /// Runs the program from the tape reader.
+    Tape,
+    /// Runs the blocks typed at the panel.
+    Mdi,
+    /// Nothing: programs are loaded and changed.
+    Edit,
+    /// Nothing: the axes are moved by hand.
+    Manual,
+}
+
+/// One position of the mode switch.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ModeRow {
+    /// Its name in operators' scripts.
+    pub name: String,
+    /// What CYCLE START does in it.
+    pub kind: ModeKind,
+    /// What it is for, for people.
+    pub text: String,
+    /// What the row rests on.
+    pub origin: Origin,
+}
+
+/// The station as the tables describe it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct StationTable {
+    /// The modes; the station begins in the first.
+    pub modes: Vec<ModeRow>,
+    /// Steps of the override switches in percent: feed, rapid, spindle. No steps: the control has no such switch.
+    pub overrides: [Vec<u16>; 3],
+    /// Index of the parameter with the speed of DRY RUN, mm/min.
+    pub jog_speed: usize,
+    /// Index of the parameter that says whether DRY RUN replaces the rapid rate too.
+    pub dry_run_rapid: usize,
+    /// Index of the parameter with the rate of the lowest step of the rapid override, mm/min.
+    pub lowest_rapid: usize,
+    /// Programs that can be registered.
+    pub most_programs: usize,
+    /// Index of the option with which there is no such limit.
+    pub more_programs: Option<usize>,
+    /// Index of the parameter whose bits protect ranges of program numbers.
+    pub protection: usize,
+    /// Those ranges, the first for D0.
+    pub protected: Vec<[u32; 2]>,
+    /// What becomes of every state that is no modal group.
+    pub states: Vec<StateRow>,
+}
+
+impl StationTable {
+    /// The mode of this name.
+    pub fn mode(&self, name: &str) -> Option<&ModeRow> {
+        self.modes.iter().find(|mode| mode.name == name)
+    }
+}

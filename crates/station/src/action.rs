@@ -1,0 +1,191 @@
+//! The operator's actions as values, and back in words: the same vocabulary for scripts, tests and a panel.
+
+use std::fmt;
+
+use crate::setup::OffsetColumn;
+
+/// What to show.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Show {
+    /// The codes in force.
+    Modal,
+    /// Where the axes are.
+    Position,
+    /// The machine: what goes out to it and comes from it.
+    Machine,
+    /// The alarms that stand.
+    Alarm,
+    /// An offset.
+    Offset(OffsetColumn, u32),
+    /// The origin of a work system.
+    Work(String),
+    /// A parameter, or one bit of it.
+    Parameter(String, Option<u8>),
+    /// A macro variable.
+    Variable(u32),
+    /// The feed.
+    Feed,
+    /// The program page: what is selected, and the words in force.
+    Program,
+    /// What the station is doing.
+    State,
+}
+
+/// How long to run.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Until {
+    /// Until automatic operation stops.
+    Stop,
+    /// Until the program ends.
+    End,
+    /// Until an alarm.
+    Alarm,
+    /// Until nothing more happens by itself.
+    Idle,
+    /// Until the control begins to execute this source line.
+    Line(u64),
+}
+
+/// An override switch.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum OverrideSwitch {
+    /// Of the cutting feed.
+    Feed,
+    /// Of the rapid rate.
+    Rapid,
+    /// Of the spindle speed.
+    Spindle,
+}
+
+impl OverrideSwitch {
+    /// Its name in scripts.
+    pub const fn name(self) -> &'static str {
+        match self {
+            OverrideSwitch::Feed => "feed",
+            OverrideSwitch::Rapid => "rapid",
+            OverrideSwitch::Spindle => "spindle",
+        }
+    }
+}
+
+/// An action of the operator.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Action {
+    /// `power-on`
+    PowerOn,
+    /// `power-off`
+    PowerOff,
+    /// `load FILE [as NAME]`
+    Load(String, Option<String>),
+    /// `select NAME`
+    Select(String),
+    /// `mode MODE`
+    Mode(String),
+    /// `mdi BLOCK`
+    Mdi(String),
+    /// `cycle-start`
+    CycleStart,
+    /// `feed-hold`
+    FeedHold,
+    /// `reset`
+    Reset,
+    /// `emergency-stop`
+    EmergencyStop,
+    /// `release`
+    Release,
+    /// `switch NAME on|off`
+    Switch(String, Option<u8>, bool),
+    /// `override feed|rapid|spindle N`
+    Override(OverrideSwitch, u16),
+    /// `input NAME on|off`
+    Input(String, bool),
+    /// `offset 31 = 10.0`, mm
+    Offset(OffsetColumn, u32, f64),
+    /// `work G54 X = 100.0`, mm or degrees
+    Work(String, u8, f64),
+    /// `parameter 6005.2 = 1`
+    Parameter(dialect::ParameterSetting),
+    /// `variable 500 = 1.5`; no value makes it blank
+    Variable(u32, Option<f64>),
+    /// `show …`
+    Show(Show),
+    /// `run until …`
+    Run(Until),
+    /// An action of the vocabulary that is not built yet, as it was written.
+    NotBuilt(String),
+}
+
+/// How a script writes the offset's cell.
+fn cell(column: OffsetColumn, number: u32) -> String {
+    match column {
+        OffsetColumn::Common => number.to_string(),
+        OffsetColumn::Length => format!("H{number}"),
+        OffsetColumn::Radius => format!("D{number}"),
+    }
+}
+
+impl fmt::Display for Show {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Show::Modal => f.write_str("modal"),
+            Show::Position => f.write_str("position"),
+            Show::Machine => f.write_str("machine"),
+            Show::Alarm => f.write_str("alarm"),
+            Show::Offset(column, number) => write!(f, "offset {}", cell(*column, *number)),
+            Show::Work(system) => write!(f, "work {system}"),
+            Show::Parameter(name, None) => write!(f, "parameter {name}"),
+            Show::Parameter(name, Some(bit)) => write!(f, "parameter {name}.{bit}"),
+            Show::Variable(number) => write!(f, "variable {number}"),
+            Show::Feed => f.write_str("feed"),
+            Show::Program => f.write_str("program"),
+            Show::State => f.write_str("state"),
+        }
+    }
+}
+
+impl fmt::Display for Until {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Until::Stop => f.write_str("stop"),
+            Until::End => f.write_str("end"),
+            Until::Alarm => f.write_str("alarm"),
+            Until::Idle => f.write_str("idle"),
+            Until::Line(line) => write!(f, "line {line}"),
+        }
+    }
+}
+
+impl fmt::Display for Action {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let state = |on: &bool| if *on { "on" } else { "off" };
+        match self {
+            Action::PowerOn => f.write_str("power-on"),
+            Action::PowerOff => f.write_str("power-off"),
+            Action::Load(file, None) => write!(f, "load {file}"),
+            Action::Load(file, Some(name)) => write!(f, "load {file} as {name}"),
+            Action::Select(name) => write!(f, "select {name}"),
+            Action::Mode(name) => write!(f, "mode {name}"),
+            Action::Mdi(blocks) => write!(f, "mdi {blocks}"),
+            Action::CycleStart => f.write_str("cycle-start"),
+            Action::FeedHold => f.write_str("feed-hold"),
+            Action::Reset => f.write_str("reset"),
+            Action::EmergencyStop => f.write_str("emergency-stop"),
+            Action::Release => f.write_str("release"),
+            Action::Switch(name, None, on) => write!(f, "switch {name} {}", state(on)),
+            Action::Switch(name, Some(number), on) => write!(f, "switch {name}={number} {}", state(on)),
+            Action::Override(switch, percent) => write!(f, "override {} {percent}", switch.name()),
+            Action::Input(name, on) => write!(f, "input {name} {}", state(on)),
+            Action::Offset(column, number, mm) => write!(f, "offset {} = {mm}", cell(*column, *number)),
+            Action::Work(system, axis, mm) => write!(f, "work {system} {} = {mm}", char::from(*axis)),
+            Action::Parameter(setting) => match setting.bit {
+                None => write!(f, "parameter {} = {}", setting.name, setting.value),
+                Some(bit) => write!(f, "parameter {}.{bit} = {}", setting.name, setting.value),
+            },
+            Action::Variable(number, Some(value)) => write!(f, "variable {number} = {value}"),
+            Action::Variable(number, None) => write!(f, "variable {number} = blank"),
+            Action::Show(show) => write!(f, "show {show}"),
+            Action::Run(until) => write!(f, "run until {until}"),
+            Action::NotBuilt(line) => f.write_str(line),
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! The panel's displays as values: what a script's `show` prints and a panel's pages draw.
+
+use base::{AXES, Alarm, Diagnostic, Point};
+use dialect::{GroupCodes, MMeaning, Meaning};
+use meaning::Corner;
+
+use crate::action::Show;
+use crate::library::Library;
+use crate::memory::{self, WorkSystem};
+use crate::operator::Operator;
+use crate::session::{Session, TYPED};
+
+/// A value of a display.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Value {
+    /// Nothing: a blank variable, a cell that there is not.
+    Null,
+    /// Yes or no.
+    Truth(bool),
+    /// A number: mm, degrees, mm/min, or as it is.
+    Number(f64),
+    /// A text.
+    Text(String),
+    /// One after the other.
+    List(Vec<Value>),
+    /// By their names, in this order.
+    Object(Vec<(String, Value)>),
+}
+
+impl Value {
+    fn object<const N: usize>(fields: [(&str, Value); N]) -> Value {
+        Value::Object(fields.map(|(name, value)| (name.to_owned(), value)).into())
+    }
+
+    fn text(text: &str) -> Value {
+        Value::Text(text.to_owned())
+    }
+
+    fn number_or_null(number: Option<f64>) -> Value {
+        number.map_or(Value::Null, Value::Number)
+    }
+
+    fn text_or_null(text: Option<&str>) -> Value {
+        text.map_or(Value::Null, Value::text)
+    }
+}
+
+impl<L: Library> Operator<L> {
+    /// What a display shows now.
+    ///
+    /// # Errors
+    /// The control has no such page.
+    pub fn display(&mut self, show: &Show) -> Result<Value, String> {
+        Ok(match show {
+            Show::Modal => modal(&self.session, &self.session.interpreter().executing_state().groups),
+            Show::Position => position(&self.session),
+            Show::Machine => machine(&self.session),
+            Show::Alarm => {
+                let alarm = self.session.alarm().copied();
+                Value::List(alarm.iter().map(|alarm| alarm_line(&mut self.session, alarm)).collect())
+            }
+            Show::Offset(column, number) => {
+                let interpreter = self.session.interpreter();
+                let value = memory::read_named_offset(interpreter.control(), interpreter.memory(), *column, *number);
+                Value::number_or_null(value)
+            }
+            Show::Work(system) => work(&self.session, system)?,
+            Show::Parameter(name, bit) => self.parameter(name, *bit),
+            Show::Variable(number) => Value::number_or_null(self.session.interpreter().variable(*number)),
+            Show::Feed => feed(&self.session),
+            Show::Program => self.program(),
+            Show::State => self.state(),
+        })
+    }
+
+    fn parameter(&mut self, name: &str, bit: Option<u8>) -> Value {
+        let interpreter = self.session.interpreter_mut();
+        interpreter.store_codes();
+        let value = interpreter.fitting().parameter_by_name(interpreter.control(), name);
+        Value::number_or_null(value.and_then(|value| match bit {
+            None => Some(value),
+            Some(bit @ 0..8) => Some(f64::from(value as u8 >> bit & 1)),
+            Some(_) => None,
+        }))
+    }
+
+    fn program(&self) -> Value {
+        let session = &self.session;
+        let state = session.interpreter().executing_state();
+        let typed = String::from_utf8_lossy(session.typed_blocks());
+        let whole = |number: u32| Value::Number(f64::from(number));
+        // A state of the control by the M code that commands it; a control without such codes shows nothing.
+        let mode = |on: bool, codes: [MMeaning; 2]| {
+            let row = session.configuration().control.m_of(codes[usize::from(on)]);
+            row.map_or(Value::Null, |row| Value::Text(format!("M{:02}", row.code)))
+        };
+        Value::object([
+            ("name", Value::text_or_null(self.program_name())),
+            ("line", Value::Number(session.place().line as f64)),
+            ("f", Value::Number(state.feed.nanometres / 1e6)),
+            ("s", whole(state.spindle)),
+            ("t", whole(state.tool)),
+            ("b", whole(state.index)),
+            ("h", whole(state.h)),
+            ("d", whole(state.d)),
+            ("interrupt", mode(state.interrupt.is_some(), [MMeaning::InterruptOff, MMeaning::InterruptOn])),
+            ("buffering", mode(state.buffering, [MMeaning::BufferingOff, MMeaning::BufferingOn])),
+            ("mirror", mode(state.transform.is_mirror_on(), [MMeaning::MirrorOff, MMeaning::MirrorOn])),
+            ("corner", mode(state.corner == Corner::Arc, [MMeaning::CornerIntersection, MMeaning::CornerArc])),
+            ("label_skip", Value::Truth(session.label_skip())),
+            ("typed", Value::List(typed.lines().map(Value::text).collect())),
+            ("memory", Value::List(self.programs().map(Value::text).collect())),
+        ])
+    }
+
+    fn state(&self) -> Value {
+        let session = &self.session;
+        let alarm = session.alarm().map(|alarm| session.configuration().control.alarm_name(alarm).name);
+        let waiting = if session.is_stopped() {
+            Some("cycle-start")
+        } else if session.waits_for_feed() {
+            Some("feed-override")
+        } else {
+            None
+        };
+        Value::object([
+            ("mode", Value::text(&self.mode().name)),
+            ("running", Value::Truth(session.is_running() && !session.is_stopped())),
+            ("held", Value::Truth(session.is_held())),
+            ("waiting_for", Value::text_or_null(waiting)),
+            ("alarm", Value::text_or_null(alarm.as_deref())),
+            ("program", Value::text_or_null(self.program_name())),
+            ("line", Value::Number(session.place().line as f64)),
+        ])
+    }
+
+    fn program_name(&self) -> Option<&str> {
+        let interpreter = self.session.interpreter();
+        interpreter.main_program().map(|(program, _)| interpreter.program_name(program))
+    }
+}
+
+fn axes<L: Library>(session: &Session<L>, point: &Point) -> Value {
+    let letters = session.configuration().machine.axes.iter().take(AXES).map(|axis| axis.letter.to_ascii_lowercase());
+    Value::Object(letters.zip(point).map(|(letter, &at)| (char::from(letter).to_string(), Value::Number(at))).collect())
+}
+
+fn modal<L: Library>(session: &Session<L>, groups: &GroupCodes) -> Value {
+    let control = &session.configuration().control;
+    let shown = control.shown_groups();
+    Value::Object(
+        shown
+            .map(|(index, group)| (format!("{:02}", group.number), Value::Text(control.g_name(groups.0[index]))))
+            .collect(),
+    )
+}
+
+fn position<L: Library>(session: &Session<L>) -> Value {
+    Value::object([
+        ("machine", axes(session, session.position())),
+        ("work", axes(session, &session.work_display())),
+        ("universal", axes(session, &session.universal_display())),
+        // Every move runs to its end between two actions, so there is nothing left to go.
+        ("distance_to_go", axes(session, &[0.0; AXES])),
+    ])
+}
+
+fn machine<L: Library>(session: &Session<L>) -> Value {
+    let percents = session.percents();
+    let percent = |percent: u16| Value::Number(f64::from(percent));
+    Value::object([
+        ("name", Value::text(&session.configuration().machine.name)),
+        ("position", axes(session, session.position())),
+        ("reference", reference(session)),
+        ("emergency_stop", Value::Truth(session.emergency_stop())),
+        (
+            "override",
+            Value::object([
+                ("feed", percent(percents.feed)),
+                ("rapid", percent(percents.rapid)),
+                ("spindle", percent(percents.spindle)),
+            ]),
+        ),
+    ])
+}
+
+/// Which axes have been returned to their reference point.
+fn reference<L: Library>(session: &Session<L>) -> Value {
+    let established = session.interpreter().executing_state().reference.established;
+    let axes = session.configuration().machine.axes.iter().take(AXES).enumerate();
+    let letter = |letter: u8| char::from(letter.to_ascii_lowercase()).to_string();
+    Value::Object(axes.map(|(index, axis)| (letter(axis.letter), Value::Truth(established.has(index)))).collect())
+}
+
+fn work<L: Library>(session: &Session<L>, system: &str) -> Result<Value, String> {
+    let interpreter = session.interpreter();
+    let memory = interpreter.memory();
+    let found = memory::work_system(interpreter.control(), memory, system).map_err(|error| error.0)?;
+    let origin = match found {
+        WorkSystem::Stored(index) => memory.work.get(index).copied().unwrap_or([0.0; AXES]),
+        WorkSystem::Base => interpreter.executing_state().base_origin,
+    };
+    Ok(axes(session, &origin.map(|counts| counts / 1e6)))
+}
+
+fn feed<L: Library>(session: &Session<L>) -> Value {
+    let interpreter = session.interpreter();
+    let state = interpreter.executing_state();
+    let control = interpreter.control();
+    let commanded = state.feed.nanometres / 1e6;
+    let per_revolution = control.in_force(&state.groups, control.roles.feed_mode) == Some(Meaning::FeedPerRevolution);
+    let mm_per_min = if per_revolution { commanded * f64::from(state.spindle) } else { commanded };
+    let feed = meaning::Feed { mm_per_min, exact_stop: false, tapping: false, per_revolution };
+    let moves = session.is_running() && !session.is_stopped();
+    Value::object([
+        ("f", Value::Number(commanded)),
+        ("override", Value::Number(f64::from(session.percents().feed))),
+        ("actual", Value::Number(if moves { session.overrides().actual(&feed) } else { 0.0 })),
+    ])
+}
+
+fn alarm_line<L: Library>(session: &mut Session<L>, alarm: &Alarm) -> Value {
+    let diagnostic = diagnose(session, alarm);
+    let name = diagnostic.alarm.as_ref();
+    let line = if alarm.place.line > 0 { Value::Number(alarm.place.line as f64) } else { Value::Null };
+    Value::object([
+        ("name", Value::text_or_null(name.map(|name| name.name.as_str()))),
+        ("number", Value::number_or_null(name.and_then(|name| name.number).map(f64::from))),
+        ("text", Value::Text(diagnostic.message)),
+        ("line", line),
+    ])
+}
+
+/// The alarm in words; the word that it is about is read from its text.
+fn diagnose<L: Library>(session: &mut Session<L>, alarm: &Alarm) -> Diagnostic {
+    let (from, len) = (alarm.span.start, alarm.span.len as usize);
+    let mut bytes = Vec::new();
+    if alarm.place.source == TYPED {
+        let text = session.typed_text();
+        let from = usize::try_from(from).unwrap_or(usize::MAX).min(text.len());
+        bytes.extend(text[from..].iter().take(len));
+    } else if alarm.place.line > 0 {
+        // A text that can no longer be read leaves the word out.
+        let _ = session.library_mut().read(alarm.place.source, from, len, &mut bytes);
+    }
+    let configuration = session.configuration();
+    let axis = alarm.axis.and_then(|axis| configuration.machine.axes.get(usize::from(axis)));
+    let axis = axis.map(|axis| (char::from(axis.letter), axis.rotary));
+    configuration.control.diagnose(alarm, &String::from_utf8_lossy(&bytes), axis)
+}

@@ -1,0 +1,168 @@
+//! Which action the control takes in which situation: one table, and the mode switch.
+
+use dialect::{ModeKind, ModeRow};
+
+use crate::action::Action;
+use crate::library::Library;
+use crate::session::Session;
+
+/// What the control is doing, as far as it decides which action it takes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Situation {
+    /// Without power.
+    Off,
+    /// The emergency stop button is pressed.
+    Emergency,
+    /// An alarm stands.
+    Alarm,
+    /// Nothing runs.
+    Ready,
+    /// A program runs.
+    Running,
+    /// A program is stopped in the middle and can go on.
+    Stopped,
+}
+
+/// The situation of a session.
+pub(super) fn situation<L: Library>(session: &Session<L>) -> Situation {
+    if !session.is_powered() {
+        Situation::Off
+    } else if session.emergency_stop() {
+        Situation::Emergency
+    } else if session.alarm().is_some() {
+        Situation::Alarm
+    } else if !session.is_running() {
+        Situation::Ready
+    } else if session.is_stopped() {
+        Situation::Stopped
+    } else {
+        Situation::Running
+    }
+}
+
+/// Actions that are taken or refused alike.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    PowerOn,
+    PowerOff,
+    Load,
+    Select,
+    Mode,
+    Type,
+    CycleStart,
+    FeedHold,
+    Reset,
+    EmergencyStop,
+    Release,
+    /// Switches, overrides and inputs.
+    Turn,
+    Offset,
+    Parameter,
+    Variable,
+    Show,
+    Run,
+    NotBuilt,
+}
+
+fn kind(action: &Action) -> Kind {
+    match action {
+        Action::PowerOn => Kind::PowerOn,
+        Action::PowerOff => Kind::PowerOff,
+        Action::Load(..) => Kind::Load,
+        Action::Select(_) => Kind::Select,
+        Action::Mode(_) => Kind::Mode,
+        Action::Mdi(_) => Kind::Type,
+        Action::CycleStart => Kind::CycleStart,
+        Action::FeedHold => Kind::FeedHold,
+        Action::Reset => Kind::Reset,
+        Action::EmergencyStop => Kind::EmergencyStop,
+        Action::Release => Kind::Release,
+        Action::Switch(..) | Action::Override(..) | Action::Input(..) => Kind::Turn,
+        Action::Offset(..) | Action::Work(..) => Kind::Offset,
+        Action::Parameter(_) => Kind::Parameter,
+        Action::Variable(..) => Kind::Variable,
+        Action::Show(_) => Kind::Show,
+        Action::Run(_) => Kind::Run,
+        Action::NotBuilt(_) => Kind::NotBuilt,
+    }
+}
+
+/// Taken, or refused for this reason.
+type Answer = Option<&'static str>;
+
+const GO: Answer = None;
+const OFF: Answer = Some("the power is off");
+const ON: Answer = Some("the power is on");
+const PRESSED: Answer = Some("the emergency stop button is pressed; release it, then RESET");
+const NOT_PRESSED: Answer = Some("the emergency stop button is not pressed");
+const ALARM: Answer = Some("an alarm stands; RESET clears it");
+const RUNS: Answer = Some("a program is running");
+const STOPPED: Answer = Some("a program is stopped in the middle; let it run to its end or press RESET");
+const NOTHING: Answer = Some("no program is running");
+const STANDS: Answer = Some("the program has stopped already");
+const NOT_YET: Answer = Some("this action is not built yet");
+
+/// Every kind of action in every situation.
+#[rustfmt::skip]
+const TABLE: &[(Kind, [Answer; 6])] = &[
+    //                     without   emergency  alarm        nothing      a program  it is
+    //                     power     stop       stands       runs         runs       stopped
+    (Kind::PowerOn,       [GO,       ON,        ON,          ON,          ON,        ON]),
+    (Kind::PowerOff,      [OFF,      GO,        GO,          GO,          GO,        GO]),
+    (Kind::Load,          [OFF,      GO,        GO,          GO,          RUNS,      STOPPED]),
+    (Kind::Select,        [OFF,      GO,        GO,          GO,          RUNS,      STOPPED]),
+    (Kind::Mode,          [GO,       GO,        GO,          GO,          RUNS,      GO]),
+    (Kind::Type,          [OFF,      GO,        GO,          GO,          RUNS,      STOPPED]),
+    (Kind::CycleStart,    [OFF,      PRESSED,   ALARM,       GO,          RUNS,      GO]),
+    (Kind::FeedHold,      [OFF,      PRESSED,   NOTHING,     NOTHING,     GO,        STANDS]),
+    (Kind::Reset,         [OFF,      PRESSED,   GO,          GO,          GO,        GO]),
+    (Kind::EmergencyStop, [OFF,      PRESSED,   GO,          GO,          GO,        GO]),
+    (Kind::Release,       [OFF,      GO,        NOT_PRESSED, NOT_PRESSED, NOT_PRESSED, NOT_PRESSED]),
+    (Kind::Turn,          [GO,       GO,        GO,          GO,          GO,        GO]),
+    (Kind::Offset,        [OFF,      GO,        GO,          GO,          GO,        GO]),
+    (Kind::Parameter,     [OFF,      GO,        GO,          GO,          RUNS,      STOPPED]),
+    (Kind::Variable,      [OFF,      GO,        GO,          GO,          GO,        GO]),
+    (Kind::Show,          [OFF,      GO,        GO,          GO,          GO,        GO]),
+    (Kind::Run,           [GO,       GO,        GO,          GO,          GO,        GO]),
+    (Kind::NotBuilt,      [NOT_YET,  NOT_YET,   NOT_YET,     NOT_YET,     NOT_YET,   NOT_YET]),
+];
+
+/// Why the control does not take the action now, if it does not.
+pub(super) fn refusal(action: &Action, situation: Situation) -> Answer {
+    let kind = kind(action);
+    TABLE.iter().find(|(row, _)| *row == kind).and_then(|(_, answers)| answers[situation as usize])
+}
+
+/// What CYCLE START would begin in a mode.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Begins {
+    /// The selected program.
+    Memory,
+    /// The tape of the selected program.
+    Tape,
+    /// What has been typed.
+    Typed,
+}
+
+/// What CYCLE START begins in a mode, or why it does nothing there.
+pub(super) fn begins(mode: &ModeRow) -> Result<Begins, String> {
+    match mode.kind {
+        ModeKind::Memory => Ok(Begins::Memory),
+        ModeKind::Mdi => Ok(Begins::Typed),
+        ModeKind::Tape => Ok(Begins::Tape),
+        ModeKind::Edit | ModeKind::Manual => Err(format!("CYCLE START does nothing in mode {}", mode.name)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_has_one_row() {
+        for (index, (kind, _)) in TABLE.iter().enumerate() {
+            assert_eq!(TABLE.iter().position(|(other, _)| other == kind), Some(index), "{kind:?}");
+        }
+        assert_eq!(TABLE.len(), Kind::NotBuilt as usize + 1);
+    }
+}

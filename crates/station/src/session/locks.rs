@@ -1,0 +1,151 @@
+//! The switches that keep axes or displays still, and those that change speeds, passed on to the stages.
+
+use base::{AXES, AxisSet, Place, Point};
+use machine::Machine;
+use meaning::RapidKind;
+use motion::Overrides;
+use path::{Shape, Shaped};
+
+use super::Session;
+use crate::library::Library;
+
+/// The axis of the switch Z-AXIS CANCEL.
+const CANCELLED_AXIS: u8 = b'Z';
+
+/// Percents of the override switches.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Percents {
+    /// Of the commanded feed.
+    pub feed: u16,
+    /// Of the rapid rate.
+    pub rapid: u16,
+    /// Of the commanded spindle speed.
+    pub spindle: u16,
+}
+
+impl Default for Percents {
+    /// Everything as commanded.
+    fn default() -> Self {
+        Percents { feed: 100, rapid: 100, spindle: 100 }
+    }
+}
+
+impl<L: Library> Session<L> {
+    /// Which axes the switches in force hold.
+    pub(super) fn pass_locks(&mut self) {
+        let axes = &self.configuration.machine.axes;
+        self.lock.held = AxisSet::NONE;
+        for (index, axis) in axes.iter().enumerate().take(AXES) {
+            if self.in_force.machine_lock || (self.in_force.z_cancel && axis.letter == CANCELLED_AXIS) {
+                self.lock.held.add(index);
+            }
+        }
+    }
+
+    /// The speeds that override switches, DRY RUN and parameters give.
+    pub(super) fn pass_overrides(&mut self) {
+        let station = &self.configuration.control.station;
+        let fitting = self.interpreter().fitting();
+        let jog = fitting.parameter(station.jog_speed);
+        let part = |percent: u16| f64::from(percent) / 100.0;
+        let mut overrides = Overrides {
+            feed: if self.fixes_override { 1.0 } else { part(self.percents.feed) },
+            spindle: part(self.percents.spindle),
+            ..Overrides::default()
+        };
+        // The lowest step is a rate of its own, not a part of the axis' rate.
+        match self.percents.rapid {
+            0 => overrides.rapid_limit = fitting.parameter(station.lowest_rapid) / 60.0,
+            percent => overrides.rapid = part(percent),
+        }
+        if self.in_force.dry_run {
+            overrides.dry_run = Some(jog);
+            if fitting.parameter(station.dry_run_rapid) != 0.0 {
+                (overrides.rapid, overrides.rapid_limit) = (1.0, jog / 60.0);
+            }
+        }
+        self.motion.set_overrides(overrides);
+    }
+
+    /// The shape as the axes really make it; `None` if that is the counted one.
+    pub(super) fn real_shape(&self) -> Option<Shaped> {
+        if !self.lock.acts() && !self.in_force.display_lock {
+            return None;
+        }
+        let mut shaped = *self.motion.upstream.current();
+        let returned = if shaped.stop_point { AxisSet::NONE } else { self.returned() };
+        shaped.shape = self.lock.real(&shaped.shape, self.machine.position(), returned);
+        Some(shaped)
+    }
+
+    /// Axes that the block returns to their reference point: its last move leads there.
+    pub(super) fn returned(&self) -> AxisSet {
+        self.interpreter().executing().map_or(AxisSet::NONE, |command| command.returned)
+    }
+
+    /// The block is done. Axes that it has returned to their reference point stand there and are counted anew, also
+    /// where the control thought that they stood there already.
+    pub(super) fn settle_returned(&mut self, place: &Place) {
+        if !self.lock.acts() {
+            return;
+        }
+        let astray = self.lock.astray(self.returned());
+        let from = *self.machine.position();
+        let mut to = from;
+        for axis in astray.iter() {
+            to[axis] = self.lock.counted(&from)[axis];
+        }
+        self.lock.settle(astray);
+        if to != from {
+            let shape = Shape::Rapid { from, to, kind: RapidKind::Checked };
+            let shaped = Shaped { shape, place: *place, ..*self.motion.upstream.current() };
+            let timed = self.motion.time(&shaped);
+            let events = &mut self.events;
+            if let Err(refusal) = self.machine.execute(&timed, &mut |event| events.push_back(event)) {
+                self.raise(refusal.alarm);
+            }
+        }
+    }
+
+    /// The counted move has been made: what the displays did not see of it, and what the axes did not make.
+    pub(super) fn count_move(&mut self) {
+        let (from, to) = match &self.motion.upstream.current().shape {
+            Shape::Rapid { from, to, .. } | Shape::Line { from, to, .. } => (*from, *to),
+            Shape::Arc { arc, .. } => (arc.from, arc.to),
+            _ => return,
+        };
+        if self.in_force.display_lock {
+            for axis in 0..AXES {
+                self.unseen[axis] += to[axis] - from[axis];
+            }
+        }
+        let real = *self.machine.position();
+        self.lock.arrived(&to, &real);
+        if !self.motion.upstream.current().stop_point {
+            self.lock.settle(self.returned().without(self.lock.held));
+        }
+    }
+
+    /// Where the control counts the axes to be, mm and degrees in machine coordinates: where they are, but for those
+    /// that a switch has held.
+    pub fn counted_position(&self) -> Point {
+        self.lock.counted(self.machine.position())
+    }
+
+    /// The ABSOLUTE display: coordinates of the work system in force.
+    pub fn work_display(&self) -> Point {
+        self.seen(self.interpreter().work_position(&self.counted_position()))
+    }
+
+    /// The UNIVERSAL display.
+    pub fn universal_display(&self) -> Point {
+        self.seen(self.interpreter().universal_position(&self.counted_position()))
+    }
+
+    fn seen(&self, mut shown: Point) -> Point {
+        for axis in 0..AXES {
+            shown[axis] -= self.unseen[axis];
+        }
+        shown
+    }
+}

@@ -1,0 +1,155 @@
+//! What brings the control into another state than a program does: power, RESET, emergency stop, the end of a program.
+
+use base::{AXES, Alarm, Condition, Place};
+use dialect::{Fate, Occasion, StateItem};
+use machine::{EventKind, Machine, ResetCause, StopCause};
+
+use super::Session;
+use crate::library::Library;
+
+impl<L: Library> Session<L> {
+    /// RESET: whatever runs is dropped, an alarm is cleared, the table of states is applied.
+    pub fn reset(&mut self) {
+        self.change_states(Occasion::Reset, ResetCause::Key);
+        self.forget_typed();
+    }
+
+    /// The emergency stop button is pressed: the drives are off, and the counters follow the axes.
+    pub fn press_emergency_stop(&mut self) {
+        let place = if self.is_running() { self.place() } else { Place::default() };
+        let alarm = Alarm::new(Condition::EmergencyStop, place, place.block);
+        self.emergency = true;
+        self.settle();
+        self.tell(place, EventKind::Alarm(alarm));
+        self.change_states(Occasion::EmergencyStop, ResetCause::EmergencyStop);
+        self.forget_typed();
+        self.alarm = Some(alarm);
+    }
+
+    /// The emergency stop button is released; its alarm stands until RESET.
+    pub fn release_emergency_stop(&mut self) {
+        self.emergency = false;
+    }
+
+    /// True while the emergency stop button is pressed.
+    pub fn emergency_stop(&self) -> bool {
+        self.emergency
+    }
+
+    /// The power goes off: what is under way is lost, what the memory keeps is kept.
+    pub fn power_off(&mut self) {
+        self.interpreter_mut().store_codes();
+        self.drop_work();
+        self.come_back();
+        self.forget_typed();
+        self.alarm = None;
+        self.powered = false;
+    }
+
+    /// The power comes back. The axes stand where they stood.
+    pub fn power_on(&mut self) {
+        self.powered = true;
+        self.settle();
+        self.unseen = [0.0; AXES];
+        let position = *self.machine.position();
+        self.motion.upstream.stand_at(&position);
+        self.interpreter_mut().reset(Occasion::PowerOn, &position, false);
+        self.rewound = true;
+        self.look_for_label(Occasion::PowerOn);
+        self.pass_overrides();
+        if self.emergency {
+            let alarm = Alarm::new(Condition::EmergencyStop, Place::default(), Place::default().block);
+            self.tell(alarm.place, EventKind::Alarm(alarm));
+            self.alarm = Some(alarm);
+        }
+    }
+
+    /// True while the control has power.
+    pub fn is_powered(&self) -> bool {
+        self.powered
+    }
+
+    /// FEED HOLD: no further move begins; CYCLE START goes on. Between two actions of an operator every move of the
+    /// virtual machine has run to its end, so it stands at once.
+    pub fn feed_hold(&mut self) {
+        let place = self.place();
+        self.stopped = true;
+        self.feed_held = true;
+        self.tell(place, EventKind::Stop(StopCause::FeedHold));
+    }
+
+    /// True from FEED HOLD to CYCLE START or RESET.
+    pub fn is_held(&self) -> bool {
+        self.feed_held
+    }
+
+    /// The interrupt input has turned on: if the program allows it, the rest of the block that runs is dropped and the
+    /// program goes on elsewhere.
+    pub(super) fn interrupt(&mut self) {
+        if !self.is_running() || self.stopped {
+            return;
+        }
+        let (position, place) = (self.counted_position(), self.place());
+        let begun = !self.pulled || self.begun == Some(self.motion.upstream.current().block);
+        if !self.interpreter_mut().interrupt(&position, begun) {
+            return;
+        }
+        self.codes.clear();
+        self.motion.upstream.stand_at(&position);
+        self.between_blocks = true;
+        self.pulled = false;
+        self.told = None;
+        if begun {
+            let events = &mut self.events;
+            self.machine.finish_block(&place, true, &mut |event| events.push_back(event));
+        }
+    }
+
+    pub(super) fn change_states(&mut self, occasion: Occasion, cause: ResetCause) {
+        let refused = self.alarm.is_some();
+        let place = self.place();
+        self.drop_work();
+        let position = self.counted_position();
+        self.motion.upstream.stand_at(&position);
+        self.interpreter_mut().reset(occasion, &position, refused);
+        if occasion != Occasion::ProgramEnd && self.inputs.rwd == Some(true) {
+            // The rewind input is held on: not only an end of a program rewinds.
+            self.interpreter_mut().rewind();
+            self.rewound = true;
+        }
+        self.look_for_label(occasion);
+        self.alarm = None;
+        let groups = self.interpreter().read_state().groups;
+        self.tell(place, EventKind::Reset { cause, groups });
+    }
+
+    /// LABEL SKIP, as the table of states says.
+    fn look_for_label(&mut self, occasion: Occasion) {
+        let interpreter = self.interpreter();
+        let fate = interpreter.fitting().fate(interpreter.control(), StateItem::LabelSkip, occasion);
+        self.label_skip |= fate == Fate::Initial;
+    }
+
+    /// True while LABEL SKIP is on.
+    pub fn label_skip(&self) -> bool {
+        self.label_skip
+    }
+
+    /// The counters of all axes are set to where the axes are.
+    fn settle(&mut self) {
+        let axes = self.configuration.machine.travel().axes;
+        self.lock.settle(axes);
+    }
+
+    /// Whatever is under way is dropped.
+    fn drop_work(&mut self) {
+        self.machine.drop_codes();
+        self.codes.clear();
+        self.between_blocks = true;
+        self.pulled = false;
+        self.told = None;
+        self.stopped = false;
+        self.feed_held = false;
+        self.ended = true;
+    }
+}
