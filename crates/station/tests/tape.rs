@@ -56,8 +56,14 @@ fn surely_tape(head: &str, text: &str) -> String {
     format!("{head}N1234G91G01X-12.5Y47.8F200(TWELVE)\nN1248G01X12.5Y-47.8\nN1247M05\n{text}")
 }
 
+/// At least so many cases; the environment can ask for more.
+fn config(cases: u32) -> ProptestConfig {
+    let default = ProptestConfig::default();
+    ProptestConfig { cases: cases.max(default.cases), ..default }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(600))]
+    #![proptest_config(config(600))]
 
     #[test]
     fn a_tape_runs_as_its_text(
@@ -94,6 +100,28 @@ proptest! {
             found.into_iter().map(|(number, cursor)| (number, cursor.line)).collect::<Vec<_>>()
         };
         prop_assert_eq!(list(&image, &pieces), list(&read, &[]));
+    }
+
+    /// Whatever is wrong with a tape, every event has its place in it, in whatever pieces it is read.
+    #[test]
+    fn any_damage_has_its_place(
+        text in programs::program(&control()),
+        system in select(vec![System::Iso, System::Eia]),
+        after in select(vec![AfterAlarm::Stand, AfterAlarm::GoOn]),
+        block_parity in any::<bool>(),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+    ) {
+        let (codes, mut setup) = codes();
+        let bit = dialect::ParameterSetting { name: "tv check".to_owned(), bit: Some(0), value: u8::from(block_parity).to_string() };
+        setup.parameters.push(bit);
+        let text = surely_tape("%\n", &text);
+        let how = Punch { system, leader: 5, even: block_parity, semicolon_ends: true };
+        let Ok(mut image) = punch(text.as_bytes(), how, &codes) else { return Ok(()) };
+        for (place, row) in damage {
+            let at = place.index(image.len());
+            image[at] = row;
+        }
+        prop_assert_eq!(events(&image, &setup, after, &[7, 1, 30]), events(&image, &setup, after, &[]));
     }
 
     /// Wherever a hole is wrong, the tape does not run past it as if nothing were.
