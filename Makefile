@@ -35,6 +35,7 @@ checks: cargo
 	python3 ci/house.py
 	python3 ci/licences.py
 	python3 ci/pages.py --check
+	cargo run --quiet --locked -p cyclestart -- controls yasnac-mx1 --coverage > /dev/null
 	python3 -m unittest discover -q ci
 
 bench: build ## measure: speed beside a peer, memory; prints command, sample, figure, limit

@@ -49,7 +49,7 @@ impl Inputs {
             "RWD" => self.rwd = Some(on),
             "skip" => self.skip = on,
             "interrupt" => self.interrupt = on,
-            "FIN" | "overtravel" | "servo-fault" | "battery-low" | "memory-fault" => {
+            "FIN" | "overtravel" | "servo-power" | "servo-fault" | "battery-low" | "memory-fault" => {
                 return Err(wrong(format!("the input `{name}` is not built yet")));
             }
             _ => {
