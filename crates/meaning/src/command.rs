@@ -146,6 +146,8 @@ pub struct Command {
     pub(crate) here: Cursor,
     /// It stands in a subprogram.
     pub(crate) called: bool,
+    /// It is the first block of its program.
+    pub(crate) first: bool,
 }
 
 impl Command {

@@ -182,7 +182,7 @@ impl Reader {
             && let Some(main) = self.calls.frames.first_mut()
         {
             main.cursor = if again { command.here } else { command.frame.cursor };
-            main.begun = main.cursor.offset > main.head.offset && !(again && command.here.offset == main.head.offset);
+            main.begun = main.cursor.offset > main.head.offset && !(again && command.first);
         }
     }
 
@@ -490,6 +490,7 @@ impl Reader {
 
     pub(crate) fn begin(&mut self, next: Cursor, command: &mut Command) {
         if let Some(frame) = self.calls.frames.last_mut() {
+            command.first = !frame.begun;
             frame.cursor = next;
             frame.begun = true;
             command.frame = *frame;
@@ -680,6 +681,7 @@ impl Reader {
         command.frame = *frame;
         command.here = frame.cursor;
         command.called = self.calls.frames.len() > 1;
+        command.first = false;
         self.ended = true;
         Read::Command
     }
@@ -722,5 +724,6 @@ pub(crate) fn empty_command(state: &State) -> Command {
         frame: Frame::default(),
         here: Cursor::HEAD,
         called: false,
+        first: false,
     }
 }

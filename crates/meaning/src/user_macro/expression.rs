@@ -17,12 +17,15 @@ pub(crate) struct Scanner<'t> {
     pub text: &'t [u8],
     pub at: usize,
     pub end: usize,
+    /// Where the statement or word begins.
+    begin: usize,
 }
 
 impl<'t> Scanner<'t> {
     pub fn new(text: &'t [u8], extent: Extent) -> Scanner<'t> {
         let end = (usize::from(extent.at) + usize::from(extent.len)).min(text.len());
-        Scanner { text, at: usize::from(extent.at), end }
+        let begin = usize::from(extent.at);
+        Scanner { text, at: begin, end, begin }
     }
 
     fn skip(&mut self) {
@@ -67,7 +70,8 @@ impl<'t> Scanner<'t> {
     /// The rest, as what cannot be read.
     pub fn unreadable(&mut self) -> Trouble {
         self.skip();
-        let from = self.at.min(self.end.saturating_sub(1));
+        // What breaks off is shown as a whole.
+        let from = if self.at < self.end { self.at } else { self.begin.min(self.end.saturating_sub(1)) };
         let len = self.end.saturating_sub(from).max(1);
         Trouble::at(Condition::MacroStatement, Extent { at: from as u16, len: len.min(usize::from(u16::MAX)) as u16 })
     }
