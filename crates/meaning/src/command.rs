@@ -178,7 +178,7 @@ impl Command {
     /// True if it cuts: a feed is in use.
     pub fn cuts(&self) -> bool {
         match &self.body {
-            Body::Line { .. } | Body::Arc { .. } | Body::Skip { .. } | Body::Centring(_) => true,
+            Body::Line { .. } | Body::Arc { .. } | Body::Skip { .. } | Body::Centring(_) | Body::Circle(_) => true,
             Body::Holes(holes) => holes.cycle.is_some(),
             _ => false,
         }
@@ -202,6 +202,11 @@ impl Command {
         let Body::Holes(holes) = &self.body else { return None };
         let from = *self.from.get(usize::from(holes.axis))?;
         Some(CycleLevels { cycle: holes.cycle?, from, r: holes.r, bottom: holes.bottom })
+    }
+
+    /// True if it stands in a subprogram or macro.
+    pub fn is_called(&self) -> bool {
+        self.called
     }
 
     /// On which side of the path the tool runs.

@@ -4,13 +4,16 @@ use base::SourceId;
 use meaning::WINDOW;
 use station::{Library, LibraryError};
 use syntax::{Block, Cursor, Grammar, Outcome, read_block};
-use tape::Reader;
+use tape::{Codes, Format, recognise};
 
 /// A text on its way through the reader.
 pub(crate) struct Blocks<'l, L> {
     library: &'l mut L,
     source: SourceId,
     grammar: &'l Grammar,
+    codes: Option<Codes>,
+    /// Text or tape: known once the head has been read.
+    format: Option<Format>,
     cursor: Cursor,
     bytes: Vec<u8>,
     part: Vec<u8>,
@@ -21,20 +24,32 @@ pub(crate) struct Blocks<'l, L> {
 }
 
 impl<'l, L: Library> Blocks<'l, L> {
-    /// The blocks of a text from a place on.
-    pub fn new(library: &'l mut L, source: SourceId, grammar: &'l Grammar, cursor: Cursor) -> Blocks<'l, L> {
+    /// The blocks of a text from its head. `codes` are those of the control's tapes, if it reads any.
+    pub fn new(library: &'l mut L, source: SourceId, grammar: &'l Grammar, codes: Option<Codes>) -> Blocks<'l, L> {
         Blocks {
             library,
             source,
             grammar,
-            cursor,
+            codes,
+            format: None,
+            cursor: Cursor::HEAD,
             bytes: Vec::new(),
             part: Vec::new(),
-            start: cursor.offset,
+            start: 0,
             settled: 0,
             last: false,
             block: Block::default(),
         }
+    }
+
+    /// Goes on from another place.
+    ///
+    /// # Errors
+    /// The text cannot be read.
+    pub fn go_to(&mut self, cursor: Cursor) -> Result<(), LibraryError> {
+        self.read_window()?;
+        self.cursor = cursor;
+        self.read_window()
     }
 
     /// Reads the next block into `block`; false at the text's end.
@@ -73,7 +88,17 @@ impl<'l, L: Library> Blocks<'l, L> {
             self.last = self.library.read(self.source, offset, wanted, &mut self.part)? || self.part.is_empty();
             self.bytes.extend_from_slice(&self.part);
         }
-        self.settled = tape::Text.translate(&mut self.bytes, self.start, self.last);
+        let format = match self.format {
+            Some(format) => format,
+            None => {
+                let format = self.codes.map_or(Format::Text, |codes| recognise(&self.bytes, &codes));
+                // A tape begins behind its label.
+                self.cursor = Cursor { offset: format.head(), line_start: format.head(), ..self.cursor };
+                format
+            }
+        };
+        self.format = Some(format);
+        self.settled = format.translate(&self.codes.unwrap_or_default(), &mut self.bytes, self.start, self.last);
         Ok(())
     }
 }

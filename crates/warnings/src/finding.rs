@@ -53,6 +53,8 @@ pub struct Finding {
     pub beside: Option<Beside>,
     /// The two readings of a number without a point are to be said, and only if both can be meant.
     pub readings: Option<Readings>,
+    /// How many least increments a number without a point counts each: 10 with the option for it.
+    pub coarse: i64,
 }
 
 /// In what the number of a word counts.
@@ -84,6 +86,7 @@ impl Finding {
             label: String::new(),
             beside: None,
             readings: None,
+            coarse: 1,
         }
     }
 

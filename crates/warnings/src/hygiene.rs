@@ -10,6 +10,7 @@ use dialect::{Control, Grouping, MMeaning, Meaning};
 use meaning::Command;
 use station::{Library, LibraryError, Session};
 use syntax::{Block, Cursor, StatementKind, Value};
+use tape::Codes;
 
 use crate::blocks::Blocks;
 use crate::finding::Finding;
@@ -60,17 +61,24 @@ pub fn look_at_text<L: Library>(session: &mut Session<L>, characters: u64) -> Re
     let mut found = Vec::new();
     found.extend(memory_size::finding(&control, session.interpreter().fitting(), characters, head));
     if last.place.source == source {
-        found.extend(hygiene(&control, &last, session.library_mut())?);
+        let codes = session.interpreter().fitting().tape_codes(&control);
+        found.extend(hygiene(&control, codes, &last, session.library_mut())?);
     }
     Ok(found)
 }
 
-fn hygiene<L: Library>(control: &Control, last: &Command, library: &mut L) -> Result<Vec<Finding>, LibraryError> {
+fn hygiene<L: Library>(
+    control: &Control,
+    codes: Option<Codes>,
+    last: &Command,
+    library: &mut L,
+) -> Result<Vec<Finding>, LibraryError> {
     let place = &last.place;
     if place.block.end() > SHORT {
         let Place { line, line_start, .. } = *place;
         let behind = Cursor { offset: place.block.end(), line, line_start, skipping: false };
-        let mut blocks = Blocks::new(library, place.source, &control.grammar, behind);
+        let mut blocks = Blocks::new(library, place.source, &control.grammar, codes);
+        blocks.go_to(behind)?;
         loop {
             if !blocks.next()? || blocks.block.rewind {
                 return Ok(Vec::new());
@@ -80,13 +88,13 @@ fn hygiene<L: Library>(control: &Control, last: &Command, library: &mut L) -> Re
             }
         }
     }
-    let targets = targets(control, place, library)?;
-    judge(control, place, library, &targets)
+    let mut blocks = Blocks::new(library, place.source, &control.grammar, codes);
+    let targets = targets(control, &mut blocks)?;
+    judge(control, place, &mut Blocks::new(library, place.source, &control.grammar, codes), &targets)
 }
 
-fn targets<L: Library>(control: &Control, place: &Place, library: &mut L) -> Result<Targets, LibraryError> {
+fn targets<L: Library>(control: &Control, blocks: &mut Blocks<L>) -> Result<Targets, LibraryError> {
     let mut targets = Targets::default();
-    let mut blocks = Blocks::new(library, place.source, &control.grammar, Cursor::HEAD);
     while blocks.next()? {
         let block = &blocks.block;
         if block.words.iter().any(|word| word.letter == b'P' || word.letter == b'Q') {
@@ -153,11 +161,10 @@ fn take_jump(text: &[u8], targets: &mut Targets) {
 fn judge<L: Library>(
     control: &Control,
     last: &Place,
-    library: &mut L,
+    blocks: &mut Blocks<L>,
     targets: &Targets,
 ) -> Result<Vec<Finding>, LibraryError> {
     let mut found = Vec::new();
-    let mut blocks = Blocks::new(library, last.source, &control.grammar, Cursor::HEAD);
     let (mut unreachable, mut unused) = (Unreachable::default(), UnusedSubprogram::default());
     let mut begun = false;
     while blocks.next()? && found.len() < MOST_FOUND {

@@ -28,7 +28,7 @@ impl Finding {
         let span = word.map_or(self.place.block, |word| word.extent.span(self.place.block.start));
         let mut values = self.values.clone();
         if let Some(readings) = self.readings {
-            values.extend(two_readings(control, word?, readings, widest)?);
+            values.extend(two_readings(control, word?, readings, self.coarse, widest)?);
         }
         let written = text_of(bytes, Span { start: span.start - self.place.block.start, len: span.len });
         values.push(("word", written));
@@ -106,16 +106,17 @@ fn two_readings(
     control: &Control,
     word: &Word,
     readings: Readings,
+    coarse: i64,
     widest: f64,
 ) -> Option<[(&'static str, String); 2]> {
     let (Value::Number(written), Some(address)) = (word.value, control.address(word.letter)) else { return None };
     let whole = written.integer()? as f64;
     let (here, unit, per_unit, limit) = match readings {
         Readings::Millimetres => {
-            (control.length(address, written, UnitSystem::Metric).ok()? as f64 / 1e6, "mm", 1.0, widest)
+            (control.length(address, written, UnitSystem::Metric, coarse).ok()? as f64 / 1e6, "mm", 1.0, widest)
         }
         Readings::Inches => {
-            (control.length(address, written, UnitSystem::Inch).ok()? as f64 / 25.4e6, "in", 25.4, widest)
+            (control.length(address, written, UnitSystem::Inch, coarse).ok()? as f64 / 25.4e6, "in", 25.4, widest)
         }
         Readings::Degrees => (control.angle(address, written).ok()? as f64 / 1e6, "deg", 1.0, 360.0),
     };

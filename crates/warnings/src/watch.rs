@@ -56,7 +56,7 @@ pub struct Watch {
 impl Watch {
     /// A watch over a run that starts from this configuration.
     pub fn new(configuration: &Configuration) -> Watch {
-        let Configuration { control, machine, memory, .. } = configuration;
+        let Configuration { control, fitting, machine, memory, .. } = configuration;
         let facts = machine.facts();
         let own = |name: &str| control.own_warnings.iter().any(|row| row.name == name);
         let needs_row = |name: &str| control.warnings.iter().any(|row| row.own && row.name == name);
@@ -76,7 +76,7 @@ impl Watch {
             across,
             in_work_system: false,
             inherited: InheritedState::new(control),
-            points: IntegerCoordinate::new(control, &facts),
+            points: IntegerCoordinate::new(control, fitting, &facts),
             feed: IntegerFeed::default(),
             boring: BoringCodeDiffers::default(),
             company: Company::default(),

@@ -251,6 +251,7 @@ impl<'a> Program<'a> {
     /// A session with the program selected, in which nothing has run.
     fn session(&self, fitting: Fitting) -> Result<Session<Texts>, Failure> {
         let mut texts = setting::texts(self.name, self.arguments)?;
+        texts.show_tapes(self.configuration.fitting.tape_codes(&self.configuration.control));
         let source = match &self.spooled {
             Some(file) => texts.open_as(&file.path().to_string_lossy(), "<stdin>")?,
             None => texts.open(self.name)?,

@@ -8,7 +8,7 @@
 //! Do: use G54 to G59, or go to a known place first (G28, G53) so that G92 says the same every time.
 //!
 //! Silent for the start position where every axis that G92 names has been brought to a reference point, to machine
-//! coordinates or to a place of a work system before. Said once a program for the start position.
+//! coordinates, to a place of a work system or by a skip signal to the work before. Said once a program for the start position.
 
 use base::AxisSet;
 use dialect::{G92System, Meaning};
@@ -32,7 +32,14 @@ impl G92MovesMeaning {
 
     pub fn look(&mut self, look: &Look, found: &mut Found) {
         match look.command.wording.one_shot {
-            Some(Meaning::ReferenceReturn | Meaning::OtherReferenceReturn) => {
+            // Where a skip signal or a centred hole has led, the work itself says where that is.
+            Some(Meaning::CentringXy | Meaning::CentringX | Meaning::CentringY) => {
+                [b'X', b'Y']
+                    .iter()
+                    .filter_map(|&letter| look.facts.axis(letter))
+                    .for_each(|axis| self.anchored.add(axis));
+            }
+            Some(Meaning::ReferenceReturn | Meaning::OtherReferenceReturn | Meaning::Skip) => {
                 look.named().for_each(|axis| self.anchored.add(axis));
             }
             Some(Meaning::MachineCoordinates) => self.anchor(look.command.absolute),

@@ -214,7 +214,11 @@ fn uses(look: &Look) -> u32 {
     {
         used |= H;
     }
-    if command.side() != Side::Off || wording.one_shot.is_some_and(|code| code.position_offset().is_some()) {
+    let takes_radius = |code: Meaning| {
+        code.position_offset().is_some()
+            || matches!(code, Meaning::CircleCutClockwise | Meaning::CircleCutCounterClockwise)
+    };
+    if command.side() != Side::Off || wording.one_shot.is_some_and(takes_radius) {
         used |= D;
     }
     used

@@ -6,13 +6,13 @@
 //!
 //! Silent in programs that write most coordinates without a point, for zero, and where only one reading makes sense:
 //! with a point the number would lead further than the machine's longest axis travels (`Q6000` for a peck of 6 mm).
-//! Not looked at: the X of a dwell, the arguments of macro calls (a count is as likely as a length), the Q of M98.
+//! Not looked at: the X of a dwell, the arguments of macro calls (a count is as likely as a length), the Q of M98 and G10.
 //! The program as a whole decides, so the findings come at its end; at most 4096 places are kept.
 
 use std::collections::BTreeSet;
 
 use base::{Place, SourceId};
-use dialect::{AddressKind, Control, Meaning};
+use dialect::{AddressKind, Control, Fitting, Meaning};
 use meaning::{Command, MachineFacts, letter_bit};
 
 use crate::finding::{At, Finding, Found, Readings};
@@ -34,12 +34,13 @@ pub(crate) struct IntegerCoordinate {
     rotary: u32,
     pointed: u64,
     plain: u64,
+    coarse: i64,
     candidates: Vec<Candidate>,
     seen: BTreeSet<(SourceId, u64)>,
 }
 
 impl IntegerCoordinate {
-    pub fn new(control: &Control, facts: &MachineFacts) -> IntegerCoordinate {
+    pub fn new(control: &Control, fitting: &Fitting, facts: &MachineFacts) -> IntegerCoordinate {
         let mut coordinates = 0;
         for letter in b'A'..=b'Z' {
             let kind = control.address(letter).map(|address| address.kind);
@@ -47,8 +48,17 @@ impl IntegerCoordinate {
                 coordinates |= letter_bit(letter);
             }
         }
+        let coarse = if fitting.options.input_x10 { 10 } else { 1 };
         let rotary = facts.axes.iter().filter(|axis| axis.rotary).fold(0, |set, axis| set | letter_bit(axis.letter));
-        IntegerCoordinate { coordinates, rotary, pointed: 0, plain: 0, candidates: Vec::new(), seen: BTreeSet::new() }
+        IntegerCoordinate {
+            coordinates,
+            rotary,
+            pointed: 0,
+            plain: 0,
+            coarse,
+            candidates: Vec::new(),
+            seen: BTreeSet::new(),
+        }
     }
 
     /// Counts a block's coordinates; true if one of them has no point.
@@ -70,6 +80,10 @@ impl IntegerCoordinate {
         let mut letters = wording.plain & self.coordinates;
         match wording.one_shot {
             Some(Meaning::Dwell | Meaning::MacroCall | Meaning::ModalMacroCall) => return,
+            // In the body of a macro, where the option does not act, it cannot be told from here.
+            _ if self.coarse != 1 && command.is_called() => return,
+            // Q chooses what G10 writes.
+            Some(Meaning::WriteData) => letters &= !letter_bit(b'Q'),
             _ if wording.has(b'M') && wording.has(b'P') => letters &= !letter_bit(b'Q'),
             _ => {}
         }
@@ -94,10 +108,11 @@ impl IntegerCoordinate {
     /// The program has ended: is a number without a point the exception in it?
     pub fn end(&mut self, found: &mut Found) {
         if self.pointed >= self.plain {
+            let coarse = self.coarse;
             for Candidate { order, place, letter, readings } in self.candidates.drain(..) {
                 found.say(Rule::IntegerCoordinate, &place, || {
                     let finding = Finding::at(Rule::IntegerCoordinate, "", order, place, At::Letter(letter));
-                    Finding { readings: Some(readings), ..finding }
+                    Finding { readings: Some(readings), coarse, ..finding }
                 });
             }
         }

@@ -6,7 +6,7 @@
 //! Do: write the point: `F0.2`, `F10.`
 //!
 //! Silent per revolution where the other reading is out of the question: nobody feeds more than 10 mm a turn, so F200
-//! is 0.2 mm. Said once a program for each of the two units: who writes one F so writes them all so.
+//! is 0.2 mm. Silent for a one-digit F that calls a stored feed. Said once a program for each of the two units: who writes one F so writes them all so.
 
 use dialect::{InchFeedInteger, Meaning};
 use meaning::letter_bit;
@@ -34,7 +34,8 @@ impl IntegerFeed {
         let inch = look.in_force(roles.units) == Some(Meaning::Inch);
         let feed = look.after().feed;
         let [metric, inch_increment, _] = look.control.increments;
-        let increment = if inch { inch_increment } else { metric } as f64;
+        let coarse = if look.fitting.options.input_x10 && !look.command.is_called() { 10 } else { 1 };
+        let increment = (if inch { inch_increment } else { metric } * coarse) as f64;
         if feed.per_revolution {
             // The number as written counts increments here; with a point it would count mm or inches.
             let written = feed.nanometres / increment;
@@ -48,7 +49,7 @@ impl IntegerFeed {
             found.say(Rule::IntegerFeed, &look.command.place, || {
                 finding(look, "revolution", format!("{here} {unit}"), format!("{} {unit}", number(written)))
             });
-        } else if inch && !self.said[1] {
+        } else if feed.inch && !self.said[1] {
             self.said[1] = true;
             let here = feed.nanometres / 1e6 / MM_AN_INCH;
             let tenth = look.fitting.policies.inch_feed_integer == InchFeedInteger::Tenth;

@@ -5,6 +5,7 @@
 //! Do: measure it and write it into the offset memory (`--offset`, `--work`, the set-up file), or correct the number.
 //!
 //! Silent where the set-up gives no offset, or no origin, at all: the program is then looked at without a machine.
+//! Silent once the program writes the memory itself (G10): what it writes it means.
 //! H00 and D00 are no offsets and mean it. Said once a program for each number and system.
 
 use dialect::Meaning;
@@ -37,6 +38,9 @@ impl OffsetUnset {
     pub fn look(&mut self, look: &Look, found: &mut Found) {
         let roles = look.control.roles;
         let (wording, after) = (&look.command.wording, look.after());
+        if wording.one_shot == Some(Meaning::WriteData) {
+            self.given = [false; 3];
+        }
         let has_length = matches!(look.in_force(roles.length), Some(Meaning::LengthPlus | Meaning::LengthMinus));
         if has_length && (wording.has(b'H') || wording.writes(roles.length)) {
             let at = if wording.has(b'H') { At::Letter(b'H') } else { At::G(look.code_in(roles.length)) };

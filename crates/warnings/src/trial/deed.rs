@@ -96,7 +96,7 @@ impl Deed {
                 places => format!("goes to {places}"),
             },
             What::Dwell(Dwell::Seconds(seconds)) => format!("dwells {} s", number(*seconds)),
-            What::Dwell(Dwell::Revolutions(turns)) => format!("dwells {} turns", number(*turns)),
+            What::Dwell(Dwell::Revolutions { turns, .. }) => format!("dwells {} turns", number(*turns)),
             What::Code(line, code) => format!("sends {line:?}{code:02}"),
             What::Stop(_) => "stops".to_owned(),
             What::Alarm(alarm) => format!("raises the alarm {}", control.alarm_name(alarm).name),
