@@ -24,10 +24,8 @@ pub fn show_typed_alarm(
 
 /// The alarm in words, and the line it stands on.
 pub fn show_alarm(alarm: &Alarm, control: &Control, machine: &MachineFile, texts: &mut Texts) -> (Diagnostic, Excerpt) {
-    let place = &alarm.place;
-    let column = place.column(alarm.span);
-    let bytes = texts.excerpt(place.source, place.line_start, LINE.max((column as usize).min(1 << 20) + 256));
-    show(texts.name(place.source), alarm, control, machine, &bytes)
+    let bytes = line_of(&alarm.place, alarm.span, texts);
+    show(texts.name(alarm.place.source), alarm, control, machine, &bytes)
 }
 
 /// `bytes` begin with the alarm's line.
@@ -56,7 +54,12 @@ pub fn show_warning(
 }
 
 fn excerpt(place: &Place, span: Span, texts: &mut Texts) -> Excerpt {
+    let bytes = line_of(place, span, texts);
+    Excerpt::new(texts.name(place.source), place.line, &bytes, place.column(span), span.len)
+}
+
+/// The line of a place, as far as it is shown.
+fn line_of(place: &Place, span: Span, texts: &mut Texts) -> Vec<u8> {
     let column = place.column(span);
-    let bytes = texts.excerpt(place.source, place.line_start, LINE.max((column as usize).min(1 << 20) + 256));
-    Excerpt::new(texts.name(place.source), place.line, &bytes, column, span.len)
+    texts.excerpt(place.source, place.line_start, LINE.max((column as usize).min(1 << 20) + 256))
 }

@@ -61,7 +61,8 @@ pub(crate) fn groups(control: &Control) -> [(usize, u32); 8] {
 
 /// True if a program can find this group in more than one state.
 fn can_differ(group: &Group) -> bool {
-    group.power_on.parameter.is_some() || group.reset.row.is_none()
+    let kept = group.reset.row.is_none() || group.program_end.row.is_none();
+    group.power_on.parameter.is_some() || kept
 }
 
 /// What the program has set and used.

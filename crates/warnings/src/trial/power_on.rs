@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use base::AxisSet;
-use dialect::{Control, Fitting, ParameterSetting};
+use dialect::{Control, Fitting, Occasion, ParameterSetting};
 use station::{Library, LibraryError, Session};
 
 use super::{Parting, compare};
@@ -31,13 +31,14 @@ pub struct PowerOn {
 pub fn power_on_trials(control: &Control, fitting: &Fitting, pieces: u64) -> Vec<PowerOn> {
     let mut bits = BTreeSet::new();
     for group in &control.groups {
-        let reset = group.reset.parameter.as_ref().filter(|_| pieces > 1);
+        let reset = group.program_end.parameter.as_ref().filter(|_| pieces > 1);
         for (parameter, own, _) in group.power_on.parameter.iter().chain(reset) {
             bits.extend(own.iter().map(|bit| (*parameter, *bit)));
         }
     }
     let bits: Vec<_> = bits.into_iter().take(MOST_BITS).collect();
-    let (as_set, reset_as_set) = (fitting.power_on(control), fitting.reset(control, fitting.power_on(control)));
+    let as_set = fitting.power_on(control);
+    let reset_as_set = fitting.groups_after(control, Occasion::ProgramEnd, as_set);
     let mut seen = BTreeSet::from([(as_set.0, reset_as_set.0)]);
     let mut trials = Vec::new();
     for combination in 0u32..1 << bits.len() {
@@ -56,7 +57,7 @@ pub fn power_on_trials(control: &Control, fitting: &Fitting, pieces: u64) -> Vec
             }
         }
         let groups = fitting.power_on(control);
-        let reset = fitting.reset(control, as_set);
+        let reset = fitting.groups_after(control, Occasion::ProgramEnd, as_set);
         if !seen.insert((groups.0, reset.0)) {
             continue;
         }
