@@ -51,4 +51,19 @@ pub struct Diagnostic {
     pub place: Place,
     /// The offending word, or the whole block.
     pub span: Span,
+    /// What stands under it, for warnings; an alarm's own name does for errors.
+    pub label: String,
+    /// Other places that belong to it.
+    pub labels: Vec<Label>,
+}
+
+/// Another place that belongs to a finding.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Label {
+    /// The block.
+    pub place: Place,
+    /// The word, or the whole block.
+    pub span: Span,
+    /// What about it.
+    pub text: String,
 }

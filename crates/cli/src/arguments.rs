@@ -25,8 +25,10 @@ pub enum Command {
     /// Run a program on the virtual machine to its end, with progress and a summary
     #[command(after_help = "Example:\n  cyclestart run part.nc --setup part.setup.toml --switch optional-stop")]
     Run(RunArguments),
-    /// Find every alarm the control would raise, without motion
-    #[command(after_help = "Example:\n  cyclestart check programs/ --format github")]
+    /// Find every alarm the control would raise and what is legal and dangerous, without motion
+    #[command(
+        after_help = "Warnings alone end with exit code 0; see --deny and --allow.\n\nExample:\n  cyclestart check programs/ --format github --deny integer-coordinate"
+    )]
     Check(CheckArguments),
     /// Print every executed event as JSON Lines
     #[command(after_help = "Example:\n  cyclestart trace part.nc --time | head")]
@@ -126,6 +128,15 @@ pub struct CheckArguments {
     /// How findings are printed
     #[arg(long, value_enum, default_value = "text")]
     pub format: FormatArgument,
+    /// A warning that counts as an error, or all; a single name is stronger than all
+    #[arg(long, value_name = "NAME")]
+    pub deny: Vec<String>,
+    /// A warning that is not given, or all; in a program (allow: NAME) says so for its block
+    #[arg(long, value_name = "NAME")]
+    pub allow: Vec<String>,
+    /// Run under every combination of the parameters for power-on and reset, and say what differs at the machine
+    #[arg(long)]
+    pub all_power_on: bool,
     /// The control and its set-up.
     #[command(flatten)]
     pub setting: SettingArguments,

@@ -9,9 +9,9 @@ pub mod run;
 pub mod tape;
 pub mod trace;
 
-use base::ProgramId;
+use base::{ProgramId, SourceId};
 use machine::Event;
-use station::{Session, Step};
+use station::{Configuration, Session, Step};
 
 use crate::arguments::SettingArguments;
 use crate::failure::Failure;
@@ -24,10 +24,21 @@ pub fn open(file: &str, arguments: &SettingArguments) -> Result<Session<Texts>, 
     let mut texts = setting::texts(file, arguments)?;
     texts.show_tapes(configuration.fitting.tape_codes(&configuration.control));
     let source = texts.open(file)?;
+    Ok(begin_session(configuration, texts, source, file, arguments))
+}
+
+/// A session with a program selected, whose text is `source`.
+pub fn begin_session(
+    configuration: Configuration,
+    texts: Texts,
+    source: SourceId,
+    file: &str,
+    arguments: &SettingArguments,
+) -> Session<Texts> {
     let mut session = Session::new(configuration, texts);
     session.interpreter_mut().set_loop_limit(arguments.loop_limit);
     session.select(source, &Texts::program_name(file), syntax::Cursor::HEAD);
-    Ok(session)
+    session
 }
 
 /// Runs the program to its end, `repeat` times, pressing CYCLE START after every stop. Events go to `see`.

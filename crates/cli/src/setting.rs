@@ -54,12 +54,16 @@ fn files_of(folder: &Path, name: &str) -> Result<ControlFiles, Failure> {
         }
     }
     // A folder with a control's own tables alone takes the sentences that come with the program.
-    let shared = folder.join("conditions.toml");
-    let conditions = match fs::read_to_string(&shared) {
-        Ok(text) => text,
-        Err(_) => builtin_controls().next().and_then(builtin_files).map(|files| files.conditions).unwrap_or_default(),
-    };
-    Ok(ControlFiles { folder: own.to_string_lossy().into_owned(), tables, conditions })
+    let builtin = builtin_controls().next().and_then(builtin_files);
+    let shared = |name: &str| fs::read_to_string(folder.join(name)).ok();
+    let conditions = shared("conditions.toml").or_else(|| builtin.as_ref().map(|files| files.conditions.clone()));
+    let warnings = shared("warnings.toml").or_else(|| builtin.as_ref().map(|files| files.warnings.clone()));
+    Ok(ControlFiles {
+        folder: own.to_string_lossy().into_owned(),
+        tables,
+        conditions: conditions.unwrap_or_default(),
+        warnings: warnings.unwrap_or_default(),
+    })
 }
 
 fn machine(name: &str) -> Result<MachineFile, Failure> {

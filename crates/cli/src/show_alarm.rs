@@ -1,9 +1,10 @@
-//! An alarm with its source line.
+//! An alarm or a warning with its source line.
 
-use base::{Alarm, Diagnostic};
+use base::{Alarm, Diagnostic, Place, Severity, Span};
 use dialect::Control;
 use machine::MachineFile;
 use report::Excerpt;
+use warnings::Finding;
 
 use crate::texts::Texts;
 
@@ -23,10 +24,8 @@ pub fn show_typed_alarm(
 
 /// The alarm in words, and the line it stands on.
 pub fn show_alarm(alarm: &Alarm, control: &Control, machine: &MachineFile, texts: &mut Texts) -> (Diagnostic, Excerpt) {
-    let place = &alarm.place;
-    let column = place.column(alarm.span);
-    let bytes = texts.excerpt(place.source, place.line_start, LINE.max((column as usize).min(1 << 20) + 256));
-    show(texts.name(place.source), alarm, control, machine, &bytes)
+    let bytes = line_of(&alarm.place, alarm.span, texts);
+    show(texts.name(alarm.place.source), alarm, control, machine, &bytes)
 }
 
 /// `bytes` begin with the alarm's line.
@@ -36,4 +35,31 @@ fn show(file: &str, alarm: &Alarm, control: &Control, machine: &MachineFile, byt
     let axis = alarm.axis.and_then(|axis| machine.axes.get(usize::from(axis)));
     let axis = axis.map(|axis| (char::from(axis.letter), axis.rotary));
     (control.diagnose(alarm, &excerpt.word, axis), excerpt)
+}
+
+/// The warning in words, the line it stands on and those of its labels; `None` if the block itself allows it.
+pub fn show_warning(
+    finding: &Finding,
+    control: &Control,
+    widest: f64,
+    severity: Severity,
+    texts: &mut Texts,
+) -> Option<(Diagnostic, Excerpt, Vec<Excerpt>)> {
+    let block = finding.place.block;
+    let bytes = texts.excerpt(finding.place.source, block.start, block.len as usize);
+    let diagnostic = finding.show(control, &bytes, widest, severity)?;
+    let found = excerpt(&diagnostic.place, diagnostic.span, texts);
+    let labels = diagnostic.labels.iter().map(|label| excerpt(&label.place, label.span, texts)).collect();
+    Some((diagnostic, found, labels))
+}
+
+fn excerpt(place: &Place, span: Span, texts: &mut Texts) -> Excerpt {
+    let bytes = line_of(place, span, texts);
+    Excerpt::new(texts.name(place.source), place.line, &bytes, place.column(span), span.len)
+}
+
+/// The line of a place, as far as it is shown.
+fn line_of(place: &Place, span: Span, texts: &mut Texts) -> Vec<u8> {
+    let column = place.column(span);
+    texts.excerpt(place.source, place.line_start, LINE.max((column as usize).min(1 << 20) + 256))
 }

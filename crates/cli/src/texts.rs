@@ -74,6 +74,15 @@ impl Texts {
         Ok(self.push(Source { name: name.to_owned(), file, at: 0, rest: None, length: facts.len(), format: None }))
     }
 
+    /// Opens a file that is shown under another name.
+    pub fn open_as(&mut self, file: &str, name: &str) -> Result<SourceId, Failure> {
+        let source = self.open(file)?;
+        if let Some(source) = self.sources.get_mut(source.0 as usize) {
+            source.name = name.to_owned();
+        }
+        Ok(source)
+    }
+
     /// A stream, which is written to a temporary file as far as it is read.
     fn spooled(&mut self, name: &str, stream: Box<dyn Read>) -> Result<SourceId, String> {
         let file = tempfile::tempfile().map_err(|e| format!("no room to spool {name}: {e}"))?;

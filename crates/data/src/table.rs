@@ -298,7 +298,7 @@ impl<'d, 't> Entry<'d, 't> {
 }
 
 /// The name most like `wanted`, if one is at all like it.
-pub(crate) fn nearest<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = wanted.to_lowercase();
     names
         .map(|name| (strsim::jaro_winkler(&wanted, &name.to_lowercase()), name))

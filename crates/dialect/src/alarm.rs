@@ -63,6 +63,8 @@ impl Control {
             alarm: Some(self.alarm_name(alarm)),
             place: alarm.place,
             span: alarm.span,
+            label: String::new(),
+            labels: Vec::new(),
         }
     }
 }

@@ -15,6 +15,7 @@ pub fn builtin_controls() -> impl Iterator<Item = &'static str> {
 pub fn builtin_files(name: &str) -> Option<ControlFiles> {
     let folder = CONTROLS.get_dir(name)?;
     let text = |file: &include_dir::File| Some((file.path().to_str()?.to_owned(), file.contents_utf8()?.to_owned()));
+    let shared = |name: &str| CONTROLS.get_file(name).and_then(text).map(|(_, text)| text).unwrap_or_default();
     Some(ControlFiles {
         folder: format!("controls/{name}"),
         tables: folder
@@ -22,6 +23,7 @@ pub fn builtin_files(name: &str) -> Option<ControlFiles> {
             .filter_map(text)
             .map(|(path, content)| (path.rsplit('/').next().unwrap_or_default().to_owned(), content))
             .collect(),
-        conditions: CONTROLS.get_file("conditions.toml").and_then(text).map(|(_, text)| text).unwrap_or_default(),
+        conditions: shared("conditions.toml"),
+        warnings: shared("warnings.toml"),
     })
 }

@@ -10,6 +10,7 @@ use crate::policy::ASKED;
 use crate::row::{Division, GCode, MCode, OptionRow, Origin, ParameterRow, PolicyRow};
 use crate::station::StationTable;
 use crate::user_macro::UserMacro;
+use crate::warning::{OwnWarning, WarningRow};
 
 /// The most modal groups a control can have.
 pub const MOST_GROUPS: usize = 24;
@@ -198,6 +199,10 @@ pub struct Control {
     pub user_macro: UserMacro,
     /// The alarms.
     pub alarms: Vec<AlarmRow>,
+    /// The warnings of `check`, those of all controls.
+    pub warnings: Vec<WarningRow>,
+    /// The warnings that are for this control in particular.
+    pub own_warnings: Vec<OwnWarning>,
     /// The sentences for each condition, in the order of `Condition::ALL`.
     pub(crate) sentences: Vec<Sentences>,
     /// Which alarm each condition raises, in the order of `Condition::ALL`.

@@ -17,6 +17,7 @@ mod policy;
 mod row;
 mod station;
 mod user_macro;
+mod warning;
 mod word;
 
 pub use address::{Address, AddressKind, PointRule};
@@ -42,6 +43,7 @@ pub use row::{
 pub use station::{ModeKind, ModeRow, StationTable};
 
 pub use user_macro::{ArgumentRow, FunctionRow, UserMacro, VariableRow};
+pub use warning::{OwnWarning, WarningRow};
 
 #[cfg(test)]
 mod tests {

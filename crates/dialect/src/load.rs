@@ -7,6 +7,7 @@ mod codes;
 mod settings;
 mod station;
 mod user_macro;
+mod warnings;
 
 use data::{DataError, Document, Table};
 use syntax::{Colon, Grammar, LowerCase, Semicolon};
@@ -24,6 +25,8 @@ pub struct ControlFiles {
     pub tables: Vec<(String, String)>,
     /// The text of `conditions.toml`, shared by all controls.
     pub conditions: String,
+    /// The text of `warnings.toml`, shared by all controls.
+    pub warnings: String,
 }
 
 impl ControlFiles {
@@ -227,6 +230,11 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     let g_index = index_by(g_codes.iter().map(|row| row.code));
     let (alarms, alarm_of_condition) = files.read("alarms.toml", alarms::alarms)?;
     let sentences = Document::read("controls/conditions.toml", &files.conditions, alarms::sentences)?;
+    let warnings = Document::read("controls/warnings.toml", &files.warnings, warnings::rows)?;
+    let own_warnings = match files.tables.iter().any(|(file, _)| file == "warnings.toml") {
+        true => files.read("warnings.toml", warnings::own)?,
+        false => Vec::new(),
+    };
     let groups = resolve_groups(files, &head.groups, &g_codes, &parameters)?;
     let roles = find_roles(files, &groups, &g_codes)?;
     let base_system = head.base_code.as_deref().and_then(|name| codes::row_of_name(&g_codes, name));
@@ -296,6 +304,8 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         station,
         user_macro,
         alarms,
+        warnings,
+        own_warnings,
         sentences,
         alarm_of_condition,
     })

@@ -134,6 +134,8 @@ pub(crate) fn read_meaning(
     if reading.command.side != Side::Off {
         reading.note_plane();
     }
+    let wording = &mut reading.command.wording;
+    (wording.groups, wording.one_shot) = (reading.groups_written, reading.one_shot.map(|(code, _)| code));
     if let Some(modal) = reading.macro_call_kind() {
         // Every other word is an argument and means nothing else.
         return reading.macro_call(modal);
@@ -366,6 +368,8 @@ impl Reading<'_> {
             }
         }
         self.command.absolute = absolute;
+        let words = self.words.block.words.get(..self.word_count).unwrap_or_default();
+        self.command.wording.take(words, self.word_values);
         if !self.next.unknown.is_nothing() {
             self.learn(absolute);
         }

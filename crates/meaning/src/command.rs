@@ -1,7 +1,7 @@
 //! A block as the control has read it: everything decided, nothing done.
 
 use base::{AXES, Alarm, AxisSet, Place, Point};
-use dialect::GroupCodes;
+use dialect::{GroupCodes, Meaning};
 use syntax::{Cursor, Extent};
 
 use crate::centring::Centring;
@@ -11,6 +11,7 @@ use crate::data_setting::DataWrite;
 use crate::operation::{CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
 use crate::program::Frame;
 use crate::state::State;
+use crate::wording::Wording;
 
 /// Most codes that one block sends.
 pub(crate) const MOST_CODES: usize = 8;
@@ -113,7 +114,7 @@ pub struct Command {
     /// The state after it.
     pub after: State,
     /// Where the axes are before it (counts, machine coordinates).
-    pub(crate) from: Point,
+    pub from: Point,
     /// The codes it sends, in their order.
     pub(crate) codes: [CodeOut; MOST_CODES],
     pub(crate) code_count: u8,
@@ -138,6 +139,8 @@ pub struct Command {
     pub returned: AxisSet,
     /// The second stored stroke area is checked.
     pub(crate) stroke_check: bool,
+    /// How it is written; nothing of a refused block.
+    pub wording: Wording,
     /// Checking on: some axis' place before the block is unknown.
     pub(crate) from_unknown: bool,
     /// The program it belongs to, with the cursor on the block after it.
@@ -150,7 +153,74 @@ pub struct Command {
     pub(crate) first: bool,
 }
 
+/// The levels between which a canned cycle works, in counts of the machine's coordinates.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct CycleLevels {
+    /// The cycle.
+    pub cycle: Meaning,
+    /// Where the drilling axis stands before the block.
+    pub from: f64,
+    /// The R level.
+    pub r: f64,
+    /// The bottom, of back boring the top, of the hole.
+    pub bottom: f64,
+}
+
 impl Command {
+    /// True if the control refuses the block: nothing of it happens.
+    pub fn is_refused(&self) -> bool {
+        matches!(self.body, Body::Alarm(_))
+    }
+
+    /// True if it may move axes.
+    pub fn moves(&self) -> bool {
+        self.body.moves()
+    }
+
+    /// True if it cuts: a feed is in use.
+    pub fn cuts(&self) -> bool {
+        match &self.body {
+            Body::Line { .. } | Body::Arc { .. } | Body::Skip { .. } | Body::Centring(_) | Body::Circle(_) => true,
+            Body::Holes(holes) => holes.cycle.is_some(),
+            _ => false,
+        }
+    }
+
+    /// True if it is an arc.
+    pub fn is_arc(&self) -> bool {
+        matches!(self.body, Body::Arc { .. })
+    }
+
+    /// The point by way of which the axes move, if the block is two rapids.
+    pub fn via(&self) -> Option<&Point> {
+        match &self.body {
+            Body::Via { via, .. } => Some(via),
+            _ => None,
+        }
+    }
+
+    /// The levels of a canned cycle.
+    pub fn levels(&self) -> Option<CycleLevels> {
+        let Body::Holes(holes) = &self.body else { return None };
+        let from = *self.from.get(usize::from(holes.axis))?;
+        Some(CycleLevels { cycle: holes.cycle?, from, r: holes.r, bottom: holes.bottom })
+    }
+
+    /// True if it stands in a subprogram or macro.
+    pub fn is_called(&self) -> bool {
+        self.called
+    }
+
+    /// On which side of the path the tool runs.
+    pub fn side(&self) -> Side {
+        self.side
+    }
+
+    /// The codes it sends, in their order.
+    pub fn sent(&self) -> &[CodeOut] {
+        self.codes.get(..usize::from(self.code_count)).unwrap_or_default()
+    }
+
     /// The span of an axis' word, or of the whole block if it has none.
     pub fn axis_span(&self, axis: usize) -> base::Span {
         match self.axis_words.get(axis) {

@@ -152,6 +152,11 @@ impl Interpreter {
         &self.reader.setting.control
     }
 
+    /// The machine as programs see it.
+    pub fn facts(&self) -> &MachineFacts {
+        &self.reader.setting.facts
+    }
+
     /// A program's name.
     pub fn program_name(&self, program: ProgramId) -> &str {
         self.reader.names.name(program)
@@ -185,6 +190,12 @@ impl Interpreter {
     /// What the control is executing: the block at the front of the queue.
     pub fn executing(&self) -> Option<&Command> {
         self.queue.front()
+    }
+
+    /// The block whose last operation was handed out last and the one executed before it, also where a reset at the
+    /// program's end has dropped the queue.
+    pub fn done(&self) -> [&Command; 2] {
+        self.queue.done()
     }
 
     /// The state of the block being executed; what was read last if none is.
@@ -400,6 +411,11 @@ impl Interpreter {
             work[axis] = ((machine[axis] * 1e6).round() - setting.zero(self.executing_state(), axis)) / 1e6;
         }
         work
+    }
+
+    /// The word of an axis that leads to a machine coordinate in a state (counts).
+    pub fn programmed(&self, state: &State, axis: usize, machine: f64) -> f64 {
+        self.reader.setting.programmed(state, axis, machine)
     }
 
     /// What the UNIVERSAL display shows for a machine position.

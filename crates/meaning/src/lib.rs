@@ -45,8 +45,9 @@ mod transform;
 mod unknown;
 mod user_macro;
 mod word;
+mod wording;
 
-pub use command::{Command, Finish};
+pub use command::{Command, CycleLevels, Finish};
 pub use facts::{AxisFacts, CodeRules, MachineFacts, Memory, OffsetTable, Switches};
 pub use interpreter::Interpreter;
 pub use interrupt::Interrupt;
@@ -57,7 +58,9 @@ pub use operation::{
 pub use program::Pointer;
 pub use pull::{Answer, Barrier, BarrierKind, Pull, Quantity, StaleBarrier};
 pub use reference_point::ReferenceData;
-pub use state::{Corner, State};
+pub use state::{Corner, FeedWord, State};
 pub use supply::WINDOW;
 pub use transform::Transform;
+pub use unknown::{Unknown, letter_bit};
 pub use user_macro::{BLANK, Variables};
+pub use wording::Wording;

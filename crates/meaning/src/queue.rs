@@ -62,6 +62,11 @@ impl Queue {
         self.has_previous = false;
     }
 
+    /// The command executed last and the one before it, even if a reset has dropped the queue since.
+    pub fn done(&self) -> [&Command; 2] {
+        [&self.ring[self.front], &self.ring[(self.front + HELD - 1) % HELD]]
+    }
+
     /// The command that was executed before the front one; there is one from the program's second block on.
     pub fn previous(&self) -> Option<&Command> {
         if self.has_previous { self.ring.get((self.front + HELD - 1) % HELD) } else { None }

@@ -25,6 +25,7 @@ use crate::user_macro::store::{Store, UNFOUND};
 use crate::user_macro::trouble::Trouble;
 use crate::user_macro::{BLANK, LOCALS};
 use crate::word::Refusal;
+use crate::wording::Wording;
 use rows::Unsound;
 
 /// What came of reading.
@@ -511,6 +512,7 @@ impl Reader {
         command.stops_reading = false;
         command.absolute = AxisSet::NONE;
         command.returned = AxisSet::NONE;
+        command.wording = Wording::default();
         command.from_unknown = !self.state.unknown.axes.is_empty();
     }
 
@@ -720,6 +722,7 @@ pub(crate) fn empty_command(state: &State) -> Command {
         absolute: AxisSet::NONE,
         returned: AxisSet::NONE,
         stroke_check: false,
+        wording: Wording::default(),
         from_unknown: false,
         frame: Frame::default(),
         here: Cursor::HEAD,

@@ -16,17 +16,17 @@ use crate::state::State;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Transform {
     /// Factor of all distances along `scaled`.
-    pub(crate) factor: f64,
+    pub factor: f64,
     /// The axes that are scaled; none without scaling.
-    pub(crate) scaled: AxisSet,
+    pub scaled: AxisSet,
     /// The point that stays in its place: program coordinates, counts.
-    pub(crate) center: Point,
+    pub center: Point,
     /// Mirror image is on, for whichever axes.
-    pub(crate) mirror: bool,
+    pub mirror: bool,
     /// The axes that are mirrored.
-    pub(crate) mirrored: AxisSet,
+    pub mirrored: AxisSet,
     /// Where each is mirrored: machine coordinates without the length offset, counts.
-    pub(crate) line: Point,
+    pub line: Point,
 }
 
 impl Default for Transform {

@@ -84,6 +84,6 @@ impl Unknown {
 }
 
 /// The bit of a letter in a set of letters.
-pub(crate) const fn letter_bit(letter: u8) -> u32 {
+pub const fn letter_bit(letter: u8) -> u32 {
     1 << (letter.wrapping_sub(b'A') & 31)
 }

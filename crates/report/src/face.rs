@@ -1,7 +1,7 @@
 //! The faces of a diagnostic: for people at a terminal, as JSON, as SARIF, as annotations of a forge.
 
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
-use base::{Diagnostic, Severity};
+use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
+use base::{Diagnostic, Label, Severity};
 
 use crate::excerpt::Excerpt;
 use crate::json::JsonLine;
@@ -56,15 +56,20 @@ pub fn end(format: Format) -> &'static str {
 
 /// A diagnostic in one of its faces.
 pub fn render(diagnostic: &Diagnostic, excerpt: &Excerpt, format: Format) -> String {
+    render_with_labels(diagnostic, excerpt, &[], format)
+}
+
+/// The same with the excerpts of its labels, in their order.
+pub fn render_with_labels(diagnostic: &Diagnostic, excerpt: &Excerpt, labels: &[Excerpt], format: Format) -> String {
     match format {
-        Format::Text { colour } => text(diagnostic, excerpt, colour),
-        Format::Json => json(diagnostic, excerpt),
-        Format::Sarif => sarif(diagnostic, excerpt),
+        Format::Text { colour } => text(diagnostic, excerpt, labels, colour),
+        Format::Json => json(diagnostic, excerpt, labels),
+        Format::Sarif => sarif(diagnostic, excerpt, labels),
         Format::Github => github(diagnostic, excerpt),
     }
 }
 
-fn text(diagnostic: &Diagnostic, excerpt: &Excerpt, colour: bool) -> String {
+fn text(diagnostic: &Diagnostic, excerpt: &Excerpt, labels: &[Excerpt], colour: bool) -> String {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
@@ -74,24 +79,34 @@ fn text(diagnostic: &Diagnostic, excerpt: &Excerpt, colour: bool) -> String {
             Some(number) => format!("alarm {} ({number:03})", alarm.name),
             None => format!("alarm {}", alarm.name),
         },
-        None => String::new(),
+        None => diagnostic.label.clone(),
     };
-    let line = usize::try_from(excerpt.line).unwrap_or(usize::MAX);
-    let snippet = Snippet::source(&excerpt.text)
-        .line_start(line)
-        .path(&excerpt.file)
-        .annotation(AnnotationKind::Primary.span(excerpt.from..excerpt.to).label(&name));
-    let group = level
-        .primary_title(&diagnostic.message)
-        .id(diagnostic.code)
-        .element(snippet)
+    let mut group = level.primary_title(&diagnostic.message).id(diagnostic.code).element(snippet(
+        excerpt,
+        AnnotationKind::Primary,
+        &name,
+    ));
+    for (label, excerpt) in diagnostic.labels.iter().zip(labels) {
+        group = group.element(snippet(excerpt, AnnotationKind::Context, &label.text));
+    }
+    let group = group
         .element(Level::NOTE.with_name("why").message(&diagnostic.why))
         .element(Level::HELP.message(&diagnostic.help));
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
     format!("{}\n", renderer.render(&[group]))
 }
 
-fn json(diagnostic: &Diagnostic, excerpt: &Excerpt) -> String {
+/// A source line with what is meant in it.
+fn snippet<'s>(excerpt: &'s Excerpt, kind: AnnotationKind, label: &'s str) -> Snippet<'s, Annotation<'s>> {
+    let mut annotation = kind.span(excerpt.from..excerpt.to);
+    if !label.is_empty() {
+        annotation = annotation.label(label);
+    }
+    let line = usize::try_from(excerpt.line).unwrap_or(usize::MAX);
+    Snippet::source(&excerpt.text).line_start(line).path(&excerpt.file).annotation(annotation)
+}
+
+fn json(diagnostic: &Diagnostic, excerpt: &Excerpt, labels: &[Excerpt]) -> String {
     let mut out = Vec::new();
     let mut line = JsonLine::begin(&mut out);
     line.text("file", &excerpt.file)
@@ -111,11 +126,39 @@ fn json(diagnostic: &Diagnostic, excerpt: &Excerpt) -> String {
         .text("message", &diagnostic.message)
         .text("why", &diagnostic.why)
         .text("help", &diagnostic.help);
+    if !diagnostic.label.is_empty() {
+        line.text("label", &diagnostic.label);
+    }
+    if !labels.is_empty() {
+        objects(line.field("labels"), diagnostic, labels, |object, label, excerpt| {
+            object.text("file", &excerpt.file).integer("line", excerpt.line).integer("column", excerpt.column);
+            object.text("text", &label.text);
+        });
+    }
     line.end();
     String::from_utf8_lossy(&out).into_owned()
 }
 
-fn sarif(diagnostic: &Diagnostic, excerpt: &Excerpt) -> String {
+/// An array of one object a label.
+fn objects(
+    out: &mut Vec<u8>,
+    diagnostic: &Diagnostic,
+    excerpts: &[Excerpt],
+    write: impl Fn(&mut JsonLine, &Label, &Excerpt),
+) {
+    out.push(b'[');
+    for (index, (label, excerpt)) in diagnostic.labels.iter().zip(excerpts).enumerate() {
+        if index > 0 {
+            out.push(b',');
+        }
+        let mut object = JsonLine::begin(out);
+        write(&mut object, label, excerpt);
+        object.end();
+    }
+    out.push(b']');
+}
+
+fn sarif(diagnostic: &Diagnostic, excerpt: &Excerpt, labels: &[Excerpt]) -> String {
     let mut out = Vec::new();
     let mut line = JsonLine::begin(&mut out);
     line.text("ruleId", diagnostic.code).text("level", diagnostic.severity.name());
@@ -126,19 +169,31 @@ fn sarif(diagnostic: &Diagnostic, excerpt: &Excerpt) -> String {
     let location = line.field("locations");
     location.push(b'[');
     let mut object = JsonLine::begin(location);
+    physical_location(&mut object, excerpt, diagnostic.span.len);
+    object.end();
+    location.push(b']');
+    if !labels.is_empty() {
+        objects(line.field("relatedLocations"), diagnostic, labels, |object, label, excerpt| {
+            physical_location(object, excerpt, label.span.len);
+            object.object("message", |message| {
+                message.text("text", &label.text);
+            });
+        });
+    }
+    line.end();
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+fn physical_location(object: &mut JsonLine, excerpt: &Excerpt, width: u32) {
     object.object("physicalLocation", |physical| {
         physical.object("artifactLocation", |artifact| {
             artifact.text("uri", &excerpt.file);
         });
         physical.object("region", |region| {
             region.integer("startLine", excerpt.line).integer("startColumn", excerpt.column);
-            region.integer("endColumn", excerpt.column + u64::from(diagnostic.span.len));
+            region.integer("endColumn", excerpt.column + u64::from(width));
         });
     });
-    object.end();
-    location.push(b']');
-    line.end();
-    String::from_utf8_lossy(&out).into_owned()
 }
 
 fn sentence(text: &str) -> String {

@@ -13,7 +13,7 @@ mod trace;
 pub use control_table::{control_list, control_table};
 pub use coverage::{CoveredRow, CoveringCase, coverage, rows_of};
 pub use excerpt::Excerpt;
-pub use face::{Format, begin, end, render, separator};
+pub use face::{Format, begin, end, render, render_with_labels, separator};
 pub use json::{JsonLine, push_number};
 pub use summary::Summary;
 pub use trace::Tracer;

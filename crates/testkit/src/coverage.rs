@@ -75,6 +75,45 @@ pub fn covers_are_known(control: &Path) -> Result<(), String> {
     report(faults)
 }
 
+/// Every warning of `controls/warnings.toml` beside the corpus has a case that shows it and one that must not.
+///
+/// The folders of a warning begin with `warning-` and its name. Warnings of single controls count where a control's own
+/// tables list them.
+///
+/// # Errors
+/// The warnings that lack one of the two.
+pub fn warnings_have_cases(control: &Path) -> Result<(), String> {
+    let Some(controls) = control.ancestors().nth(2).map(|root| root.join("controls")) else { return Ok(()) };
+    let Ok(all) = fs::read_to_string(controls.join("warnings.toml")) else { return Ok(()) };
+    let own = fs::read_to_string(controls.join(file_name(control)).join("warnings.toml")).unwrap_or_default();
+    let mut faults = Vec::new();
+    for row in all.split("[[warning]]").skip(1) {
+        let name = row.split('"').nth(1).unwrap_or_default();
+        let listed = own.contains(&format!("name = \"{name}\""));
+        if row.contains("own = true") && !listed {
+            continue;
+        }
+        let (mut shown, mut silent) = (false, false);
+        for folder in
+            folders(control)?.iter().filter(|folder| file_name(folder).starts_with(&format!("warning-{name}")))
+        {
+            let out = fs::read_to_string(folder.join("out.trace")).unwrap_or_default();
+            let says = out.contains(&format!("[{name}]"));
+            // What waits for a function cannot be shown yet.
+            let waits = Case::read(folder)?.waits.is_some();
+            shown |= says || waits;
+            silent |= !says && !waits;
+        }
+        for (has, what) in [(shown, "shows it"), (silent, "must not")] {
+            if !has {
+                faults.push(format!("the warning {name} has no case warning-{name}… that {what}"));
+            }
+        }
+    }
+    faults.dedup();
+    report(faults)
+}
+
 fn report(faults: Vec<String>) -> Result<(), String> {
     if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
 }

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use libtest_mimic::{Arguments, Failed, Trial};
 
 pub use case::{Case, Waits};
-pub use coverage::{alarms_are_covered, covers_are_known, rules_have_folders};
+pub use coverage::{alarms_are_covered, covers_are_known, rules_have_folders, warnings_have_cases};
 pub use difference::difference;
 pub use judge::{Mode, judge};
 pub use program::{Call, Outcome, Program};
@@ -42,7 +42,7 @@ pub fn run_corpus(program: &str, folder: &str) -> ExitCode {
     }
 }
 
-/// The tests of a corpus: one a case, three a control.
+/// The tests of a corpus: one a case, four a control.
 ///
 /// # Errors
 /// The corpus is not there or empty.
@@ -74,10 +74,11 @@ fn case_trial(control: &str, folder: PathBuf, program: Arc<PathBuf>, mode: Mode)
 
 fn corpus_trials(control: &str, folder: &Path) -> Vec<Trial> {
     type Check = fn(&Path) -> Result<(), String>;
-    let checks: [(&str, Check); 3] = [
+    let checks: [(&str, Check); 4] = [
         ("every-rule-has-a-folder", rules_have_folders),
         ("every-raised-alarm-is-covered", alarms_are_covered),
         ("every-covered-rule-is-known", covers_are_known),
+        ("every-warning-has-its-cases", warnings_have_cases),
     ];
     let trial = |(name, check): (&str, Check)| {
         let folder = folder.to_owned();

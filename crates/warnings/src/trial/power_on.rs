@@ -1,0 +1,140 @@
+//! Every combination of the power-on and reset parameters.
+
+use std::collections::BTreeSet;
+
+use base::AxisSet;
+use dialect::{Control, Fitting, Occasion, ParameterSetting};
+use station::{Library, LibraryError, Session};
+
+use super::{Parting, compare};
+use crate::finding::{At, Finding};
+use crate::rules::Rule;
+
+/// Parameter bits that are combined; a control with more leaves the last ones as they are.
+const MOST_BITS: usize = 12;
+
+/// One combination that leads to states of its own.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PowerOn {
+    /// The control with these parameters.
+    pub fitting: Fitting,
+    /// Bits of parameters that differ from those set: name, bit, value.
+    parameters: Vec<(String, u8, bool)>,
+    /// Groups that begin in another state: index, code as set, code here.
+    changed: Vec<(usize, u8, u8)>,
+    /// Groups that a reset brings to another state.
+    reset_changed: Vec<usize>,
+}
+
+/// Every combination of the parameters that decide groups at power-on, and of those that decide them at reset if the
+/// program runs more than once; each set of states that can come of it once, the one as set left out.
+pub fn power_on_trials(control: &Control, fitting: &Fitting, pieces: u64) -> Vec<PowerOn> {
+    let mut bits = BTreeSet::new();
+    for group in &control.groups {
+        let reset = group.program_end.parameter.as_ref().filter(|_| pieces > 1);
+        for (parameter, own, _) in group.power_on.parameter.iter().chain(reset) {
+            bits.extend(own.iter().map(|bit| (*parameter, *bit)));
+        }
+    }
+    let bits: Vec<_> = bits.into_iter().take(MOST_BITS).collect();
+    let as_set = fitting.power_on(control);
+    let reset_as_set = fitting.groups_after(control, Occasion::ProgramEnd, as_set);
+    let mut seen = BTreeSet::from([(as_set.0, reset_as_set.0)]);
+    let mut trials = Vec::new();
+    for combination in 0u32..1 << bits.len() {
+        let mut fitting = fitting.clone();
+        let mut parameters = Vec::new();
+        for (place, (parameter, bit)) in bits.iter().enumerate() {
+            let value = combination & (1 << place) != 0;
+            let is = fitting.parameter(*parameter) as u8 & (1 << bit) != 0;
+            let Some(row) = control.parameters.get(*parameter) else { continue };
+            if value != is {
+                let setting =
+                    ParameterSetting { name: row.name.clone(), bit: Some(*bit), value: u8::from(value).to_string() };
+                if fitting.set_parameter(control, &setting).is_ok() {
+                    parameters.push((row.name.clone(), *bit, value));
+                }
+            }
+        }
+        let groups = fitting.power_on(control);
+        let reset = fitting.groups_after(control, Occasion::ProgramEnd, as_set);
+        if !seen.insert((groups.0, reset.0)) {
+            continue;
+        }
+        let changed = |a: &[u8], b: &[u8]| {
+            (0..control.groups.len()).filter(|&g| a[g] != b[g]).map(|g| (g, a[g], b[g])).collect::<Vec<_>>()
+        };
+        let reset_changed = changed(&reset_as_set.0, &reset.0).into_iter().map(|(group, ..)| group).collect();
+        trials.push(PowerOn { fitting, parameters, changed: changed(&as_set.0, &groups.0), reset_changed });
+    }
+    trials.sort_by_key(|trial| trial.changed.len() + trial.reset_changed.len());
+    trials
+}
+
+/// What came of the trials.
+#[derive(Default)]
+pub struct Outcomes {
+    partings: Vec<(PowerOn, Finding)>,
+    total: usize,
+    differ: usize,
+}
+
+impl Outcomes {
+    /// Runs the program as set and in one of the trials, side by side.
+    ///
+    /// # Errors
+    /// A text cannot be read.
+    pub fn run<L: Library>(
+        &mut self,
+        as_set: &mut Session<L>,
+        otherwise: &mut Session<L>,
+        trial: PowerOn,
+        pieces: u64,
+    ) -> Result<(), LibraryError> {
+        self.total += 1;
+        let all = as_set.interpreter().facts().all();
+        let Some(parting) = compare(as_set, otherwise, pieces, AxisSet(all.0))? else { return Ok(()) };
+        self.differ += 1;
+        // What a smaller change explains is not said again.
+        let explained = |(said, _): &(PowerOn, Finding)| {
+            said.changed.iter().all(|change| trial.changed.contains(change))
+                && said.reset_changed.iter().all(|group| trial.reset_changed.contains(group))
+        };
+        if self.partings.iter().any(explained) {
+            return Ok(());
+        }
+        let finding = finding(as_set, &parting, &trial);
+        self.partings.push((trial, finding));
+        Ok(())
+    }
+
+    /// The findings, each with the count of combinations that make a difference.
+    pub fn findings(self) -> Vec<Finding> {
+        let summary = format!("{} of {}", self.differ, self.total);
+        self.partings.into_iter().map(|(_, finding)| finding.with("summary", summary.clone())).collect()
+    }
+}
+
+fn finding<L: Library>(session: &Session<L>, parting: &Parting, trial: &PowerOn) -> Finding {
+    let control = &session.configuration().control;
+    let letters: Vec<u8> = session.interpreter().facts().axes.iter().map(|axis| axis.letter).collect();
+    let (place, order, first, again) = parting.words(&letters, control);
+    let mut states: Vec<String> = trial
+        .changed
+        .iter()
+        .map(|&(_, was, is)| format!("{} in place of {}", control.g_name(is), control.g_name(was)))
+        .collect();
+    if trial.changed.is_empty() {
+        let number = |&group: &usize| control.groups.get(group).map_or(0, |group| group.number);
+        let groups: Vec<_> = trial.reset_changed.iter().map(|group| format!("group {:02}", number(group))).collect();
+        states.push(format!("another reset of {}", groups.join(", ")));
+    }
+    let parameters: Vec<String> =
+        trial.parameters.iter().map(|(name, bit, value)| format!("#{name} D{bit} = {}", u8::from(*value))).collect();
+    Finding::at(Rule::InheritedState, "power-on", order, place, At::Block)
+        .labelled(format!("{again} under {}", states.join(", ")))
+        .with("states", states.join(", "))
+        .with("parameters", parameters.join(", "))
+        .with("again", again)
+        .with("first", first)
+}
