@@ -75,6 +75,7 @@ impl Body {
                 | Body::Arc { .. }
                 | Body::Skip { .. }
                 | Body::Centring(_)
+                | Body::Circle(_)
                 | Body::Holes(_)
         )
     }
