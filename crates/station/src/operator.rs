@@ -110,6 +110,9 @@ impl<L: Shelf> Operator<L> {
             let action = written.map_or_else(|| action.to_string(), str::to_owned);
             tell(&mut self.session, Said::Refused { action, why });
         }
+        if !self.session.is_running() && table::begins(self.mode()) != Ok(Begins::Typed) {
+            self.session.come_back();
+        }
         self.drain_told(tell)
     }
 
@@ -152,9 +155,6 @@ impl<L: Shelf> Operator<L> {
             return Err(format!("there is no mode {name}; the modes are {}", known.join(", ")));
         };
         self.mode = mode;
-        if !self.session.is_running() && table::begins(self.mode()) != Ok(Begins::Typed) {
-            self.session.come_back();
-        }
         Ok(())
     }
 

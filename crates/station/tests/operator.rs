@@ -21,6 +21,8 @@ const PROGRAMS: &[&str] = &[
     "O7\nG02X1.\nM30\n",
     "O8\nG41D31\nG01X5.F100\nG28X0\nM30\n",
     "",
+    "O9\nM95\n#100=1\nM91P9\nM93\nG91G31X10.F1000\nWHILE[#100LT3]DO1\n#100=#100+1\nG00X#100\nEND1\nX1.\nX1.\nN9M30\n",
+    "O10\nG51X0Y0P2000\nG01X1.F500\nG50\nG66P5\nG00Y1.\nG67\nG12I5.D31F300\n#3003=3\n#3004=7\nG76X2.Z-1.R0Q0.5F100\nG80M08\nG04P100\nM30\n",
     "M99P7\nN7M02\nN8G90G00X3.\nM99P8\n",
 ];
 
@@ -57,7 +59,7 @@ fn write() -> impl Strategy<Value = Action> {
     let percent = select(vec![0, 10, 25, 50, 55, 100, 200]);
     let switch = select(vec![OverrideSwitch::Feed, OverrideSwitch::Rapid, OverrideSwitch::Spindle]);
     prop_oneof![
-        (select(vec!["EOP", "RWD", "nothing"]), any::<bool>())
+        (select(vec!["EOP", "RWD", "skip", "interrupt", "UI3", "nothing"]), any::<bool>())
             .prop_map(|(name, on)| Action::Input(name.to_owned(), on)),
         (
             names(&[

@@ -87,10 +87,14 @@ impl<L: Library> Session<L> {
             _ => timed.length,
         };
         let timed = Timed { shaped: &shaped, length, ..timed };
+        let before = self.counted_position();
         let events = &mut self.events;
-        self.machine.execute(&timed, &mut |event| events.push_back(event))?;
-        self.count_move();
-        Ok(())
+        let executed = self.machine.execute(&timed, &mut |event| events.push_back(event));
+        if executed.is_ok() {
+            self.count_move();
+        }
+        self.pass_displays(&before);
+        executed
     }
 
     /// True while feed moves stand still because the feed override is at zero; the codes of their block are out then.

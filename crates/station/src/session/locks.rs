@@ -107,22 +107,27 @@ impl<L: Library> Session<L> {
         }
     }
 
-    /// The counted move has been made: what the displays did not see of it, and what the axes did not make.
+    /// The counted move has been made; what the axes did not make of it is remembered.
     pub(super) fn count_move(&mut self) {
-        let (from, to) = match &self.motion.upstream.current().shape {
-            Shape::Rapid { from, to, .. } | Shape::Line { from, to, .. } => (*from, *to),
-            Shape::Arc { arc, .. } => (arc.from, arc.to),
+        let to = match &self.motion.upstream.current().shape {
+            Shape::Rapid { to, .. } | Shape::Line { to, .. } => *to,
+            Shape::Arc { arc, .. } => arc.to,
             _ => return,
         };
-        if self.in_force.display_lock {
-            for axis in 0..AXES {
-                self.unseen[axis] += to[axis] - from[axis];
-            }
-        }
         let real = *self.machine.position();
         self.lock.arrived(&to, &real);
         if !self.motion.upstream.current().stop_point {
             self.lock.settle(self.returned().without(self.lock.held));
+        }
+    }
+
+    /// The control counts from `before` to where it counts now; with DISPLAY LOCK on the displays do not.
+    pub(super) fn pass_displays(&mut self, before: &Point) {
+        if self.in_force.display_lock {
+            let now = self.counted_position();
+            for axis in 0..AXES {
+                self.unseen[axis] += now[axis] - before[axis];
+            }
         }
     }
 

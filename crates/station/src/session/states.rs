@@ -107,7 +107,9 @@ impl<L: Library> Session<L> {
 
     pub(super) fn change_states(&mut self, occasion: Occasion, cause: ResetCause) {
         let refused = self.alarm.is_some();
-        let place = self.place();
+        // The block that was executed last belongs to it only while its program runs or ends by it.
+        let belongs = self.is_running() || occasion == Occasion::ProgramEnd;
+        let place = if belongs { self.place() } else { Place::default() };
         self.drop_work();
         let position = self.counted_position();
         self.motion.upstream.stand_at(&position);
