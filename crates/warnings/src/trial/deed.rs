@@ -92,8 +92,9 @@ impl Deed {
                 format!("{text} at {} mm/min", number(*feed))
             }
             What::Stand { from, at } => match places(at, there.or(Some(from))) {
-                places if places.is_empty() => "does not move".to_owned(),
-                places => format!("goes to {places}"),
+                places if !places.is_empty() => format!("goes to {places}"),
+                _ if from == at => "does not move".to_owned(),
+                _ => "goes there at rapid".to_owned(),
             },
             What::Dwell(Dwell::Seconds(seconds)) => format!("dwells {} s", number(*seconds)),
             What::Dwell(Dwell::Revolutions { turns, .. }) => format!("dwells {} turns", number(*turns)),

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use base::AxisSet;
-use dialect::{Control, Fitting, Occasion, ParameterSetting};
+use dialect::{Control, Fitting, GroupCodes, MOST_GROUPS, NO_CODE, Occasion, ParameterSetting};
 use station::{Library, LibraryError, Session};
 
 use super::{Parting, compare};
@@ -38,7 +38,9 @@ pub fn power_on_trials(control: &Control, fitting: &Fitting, pieces: u64) -> Vec
     }
     let bits: Vec<_> = bits.into_iter().take(MOST_BITS).collect();
     let as_set = fitting.power_on(control);
-    let reset_as_set = fitting.groups_after(control, Occasion::ProgramEnd, as_set);
+    // From nothing, so that what a reset keeps differs from what it sets.
+    let nothing = GroupCodes([NO_CODE; MOST_GROUPS]);
+    let reset_as_set = fitting.groups_after(control, Occasion::ProgramEnd, nothing);
     let mut seen = BTreeSet::from([(as_set.0, reset_as_set.0)]);
     let mut trials = Vec::new();
     for combination in 0u32..1 << bits.len() {
@@ -57,7 +59,7 @@ pub fn power_on_trials(control: &Control, fitting: &Fitting, pieces: u64) -> Vec
             }
         }
         let groups = fitting.power_on(control);
-        let reset = fitting.groups_after(control, Occasion::ProgramEnd, as_set);
+        let reset = fitting.groups_after(control, Occasion::ProgramEnd, nothing);
         if !seen.insert((groups.0, reset.0)) {
             continue;
         }
