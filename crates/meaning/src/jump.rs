@@ -385,7 +385,10 @@ impl Search {
                 program_of(source, names, block).filter(|(found, _)| *found == number).map(|(_, found)| found)
             }
             Target::Sequence { number, program, .. } => {
-                let is_it = first.letter == b'N' && number_of(first) == Some(i64::from(number));
+                // Behind the O word of the next program a number is that program's; from the head on it is this one's.
+                let own = first.letter == b'N' || self.from_head;
+                let numbered = block.words.iter().find(|word| word.letter == b'N');
+                let is_it = own && numbered.and_then(number_of) == Some(i64::from(number));
                 is_it.then_some(Found { source, program, cursor: block.start, enters: self.enters() })
             }
             Target::LoopEnd { .. } => None,

@@ -78,6 +78,8 @@ pub(crate) struct Frame {
     pub cursor: Cursor,
     /// Its first block has been read: from here on an O word belongs to the next program.
     pub begun: bool,
+    /// Where that block begins.
+    pub first: u64,
     /// The sign that begins a tape has been read: the next one ends it.
     pub opened: bool,
     /// How many more times it runs after this one.

@@ -281,7 +281,9 @@ impl Reader {
                 continue;
             }
             if self.begins_program() {
-                if frame.begun {
+                // A jump may lead back to the block of the program's own O word.
+                let own = [frame.first, frame.head.offset].contains(&self.block.start.offset);
+                if frame.begun && !own {
                     return self.end_of_text(&frame, command);
                 }
                 self.name_program();
@@ -492,6 +494,9 @@ impl Reader {
     pub(crate) fn begin(&mut self, next: Cursor, command: &mut Command) {
         if let Some(frame) = self.calls.frames.last_mut() {
             command.first = !frame.begun;
+            if !frame.begun {
+                frame.first = self.block.start.offset;
+            }
             frame.cursor = next;
             frame.begun = true;
             command.frame = *frame;

@@ -371,7 +371,8 @@ impl<L: Library> Session<L> {
         }
         self.pulled = true;
         let shaped = self.motion.upstream.current();
-        if self.told == Some(shaped.block) {
+        // The start of the program is no block.
+        if self.told == Some(shaped.block) || shaped.place.line == 0 {
             return None;
         }
         self.told = Some(shaped.block);

@@ -60,6 +60,9 @@ impl Reader {
                         Next::At(cursor) => cursor,
                         _ => line.next,
                     };
+                    if !top.begun {
+                        top.first = line.start.offset;
+                    }
                     top.begun = true;
                 }
                 None

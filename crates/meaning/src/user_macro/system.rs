@@ -163,7 +163,7 @@ impl Source<'_> {
         let unit = self.unit(axis);
         Ok(match meaning {
             VariableMeaning::BlockEnd => {
-                (state.machine[axis] - self.setting.zero(state, axis) - state.displacement[axis]) / unit
+                self.setting.programmed(state, axis, state.machine[axis] - state.displacement[axis]) / unit
             }
             VariableMeaning::MachinePosition => self.ask(Quantity::Position(axis as u8))? * 1e6 / unit,
             VariableMeaning::WorkPosition => {
