@@ -3,6 +3,8 @@
 pub mod check;
 pub mod controls;
 pub mod coverage;
+pub mod explain;
+pub mod fmt;
 pub mod operate;
 pub mod plot;
 pub mod run;

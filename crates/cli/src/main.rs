@@ -5,6 +5,7 @@
 mod arguments;
 mod command;
 mod failure;
+mod named_programs;
 mod output;
 mod setting;
 mod show_alarm;
@@ -48,6 +49,8 @@ fn run(command: Command) -> Result<bool, Failure> {
         Command::Operate(arguments) => command::operate::operate(&arguments),
         Command::Tape(arguments) => command::tape::tape(&arguments),
         Command::Plot(arguments) => command::plot::plot(&arguments),
+        Command::Explain(arguments) => command::explain::explain(&arguments),
+        Command::Fmt(arguments) => command::fmt::fmt(&arguments),
         Command::Controls(arguments) => command::controls::controls(&arguments),
     }
 }
