@@ -49,6 +49,11 @@ pub enum Command {
         after_help = "Examples:\n  cyclestart explain part.nc:64 --setup part.setup.toml\n  echo 'G91 G28 Z0' | cyclestart explain -"
     )]
     Explain(ExplainArguments),
+    /// Print the set-up sheet: tools, offsets, work systems, codes, stops, times
+    #[command(
+        after_help = "Examples:\n  cyclestart sheet part.nc --setup part.setup.toml\n  cyclestart sheet part.nc --setup part.setup.toml -o part.html"
+    )]
+    Sheet(SheetArguments),
     /// Rewrite programs in house style, proved to run as before
     #[command(
         after_help = "Examples:\n  cyclestart fmt programs/ --check\n  cyclestart fmt part.nc --number 10,10 -o part-numbered.nc"
@@ -320,6 +325,33 @@ pub struct ExplainArguments {
     /// How the explanation is printed
     #[arg(long, value_enum, default_value = "text")]
     pub format: ExplainFormat,
+    /// The control and its set-up.
+    #[command(flatten)]
+    pub setting: SettingArguments,
+}
+
+/// How a set-up sheet is printed.
+#[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SheetFormat {
+    /// For the terminal.
+    Text,
+    /// A JSON object.
+    Json,
+    /// A page for the printer, A4.
+    Html,
+}
+
+/// `sheet`
+#[derive(Args, Debug)]
+pub struct SheetArguments {
+    /// The program, - for standard input
+    pub file: String,
+    /// How the sheet is printed [default: by the ending of OUT, text without one]
+    #[arg(long, value_enum)]
+    pub format: Option<SheetFormat>,
+    /// The file to write instead of standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
     /// The control and its set-up.
     #[command(flatten)]
     pub setting: SettingArguments,

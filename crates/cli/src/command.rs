@@ -8,6 +8,7 @@ pub mod fmt;
 pub mod operate;
 pub mod plot;
 pub mod run;
+pub mod sheet;
 pub mod tape;
 pub mod trace;
 

@@ -50,6 +50,7 @@ fn run(command: Command) -> Result<bool, Failure> {
         Command::Tape(arguments) => command::tape::tape(&arguments),
         Command::Plot(arguments) => command::plot::plot(&arguments),
         Command::Explain(arguments) => command::explain::explain(&arguments),
+        Command::Sheet(arguments) => command::sheet::sheet(&arguments),
         Command::Fmt(arguments) => command::fmt::fmt(&arguments),
         Command::Controls(arguments) => command::controls::controls(&arguments),
     }

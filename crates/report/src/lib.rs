@@ -10,6 +10,8 @@ mod face;
 mod house_style;
 mod json;
 mod paint;
+mod remarks;
+mod sheet;
 mod summary;
 mod trace;
 
@@ -21,5 +23,6 @@ pub use face::{Format, begin, end, render, render_with_labels, separator};
 pub use house_style::{Difference, Formatted, HouseStyle, Numbering, house_style, same_run};
 pub use json::{JsonLine, push_number};
 pub use paint::Paint;
+pub use sheet::{Sheet, ToolSheet, sheet_html, sheet_json, sheet_text};
 pub use summary::Summary;
 pub use trace::Tracer;

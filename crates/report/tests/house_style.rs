@@ -7,6 +7,7 @@ mod written;
 use std::collections::BTreeSet;
 
 use machine::EventKind;
+use meaning::EndKind;
 use proptest::prelude::*;
 use report::{Formatted, HouseStyle, Numbering, house_style, same_run};
 use station::{AfterAlarm, Configuration, Step};
@@ -53,13 +54,36 @@ fn difference(configuration: &Configuration, old: &[u8], new: &[u8]) -> Option<S
     })
 }
 
+/// True for a program that comes round for ever: when it is seen to do so depends on the numbers of its blocks.
+fn comes_round(configuration: &Configuration, text: &[u8]) -> bool {
+    [AfterAlarm::Stand, AfterAlarm::GoOn].into_iter().any(|after| {
+        let mut session = shop::session(configuration, text);
+        session.set_after_alarm(after);
+        session.start();
+        for _ in 0..MOST_EVENTS {
+            match session.next() {
+                Step::Event(event) => {
+                    if matches!(event.kind, EventKind::End { kind: EndKind::M99 | EndKind::Loop, .. }) {
+                        return true;
+                    }
+                }
+                Step::Stopped => session.start(),
+                _ => return false,
+            }
+        }
+        true
+    })
+}
+
 fn check(configuration: &Configuration, text: &[u8], name: &str) {
     let once = format(configuration, text, None).expect("nothing is numbered");
     let shown = || format!("{name}\n{}\n----\n{}", String::from_utf8_lossy(text), String::from_utf8_lossy(&once.text));
     assert_eq!(difference(configuration, text, &once.text), None, "{}", shown());
     let twice = format(configuration, &once.text, None).expect("nothing is numbered");
     assert!(twice.unchanged, "{}\n----\n{}", shown(), String::from_utf8_lossy(&twice.text));
-    if let Ok(numbered) = format(configuration, text, Some(Numbering { start: 10, step: 5 })) {
+    if !comes_round(configuration, text)
+        && let Ok(numbered) = format(configuration, text, Some(Numbering { start: 10, step: 5 }))
+    {
         let shown =
             || format!("{name}\n{}\n----\n{}", String::from_utf8_lossy(text), String::from_utf8_lossy(&numbered.text));
         assert_eq!(difference(configuration, text, &numbered.text), None, "{}", shown());

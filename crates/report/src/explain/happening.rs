@@ -145,5 +145,11 @@ fn trace_fields(control: &Control, axes: &[MachineAxis], event: &Event) -> Strin
     // What the list says already is left out: the event's name and its place.
     let from = text.find("\"what\"").unwrap_or(1);
     let fields = text.get(from..).unwrap_or_default().trim_end().trim_end_matches('}');
-    fields.replace('"', "").replace("what:", "").replace(",value:", ": ").replace(['{', '}'], "").replace(',', "  ")
+    fields
+        .replace('"', "")
+        .replace("what:", "")
+        .replace(",value:", ": ")
+        .replace(":{", " ")
+        .replace(['{', '}'], "")
+        .replace(',', "  ")
 }
