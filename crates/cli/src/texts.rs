@@ -85,7 +85,7 @@ impl Texts {
 
     /// A text that is not in a file under this name, or not yet.
     pub fn hold(&mut self, name: &str, bytes: Vec<u8>) -> Result<SourceId, Failure> {
-        self.spooled(name, Box::new(io::Cursor::new(bytes)))
+        self.spooled(name, Box::new(io::Cursor::new(bytes))).map_err(Failure::call)
     }
 
     /// A stream, which is written to a temporary file as far as it is read.

@@ -94,7 +94,7 @@ pub fn explain<L: Library>(
         text: bytes,
         block_delete: configuration.switches.block_delete,
     };
-    let moment = |state, index: usize| Moment { state, at: &watched.at[index], zero: &watched.zero[index] };
+    let moment = |state, index: usize| Moment { state, at: &watched.at[index], program: &watched.program[index] };
     let in_force = |state: &State| state::codes_in_force(control, state);
     Explanation {
         file: file.to_owned(),

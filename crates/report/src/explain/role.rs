@@ -65,7 +65,14 @@ fn axis(here: &Here, letter: u8, value: f64) -> Option<String> {
 /// True for one-shot codes under which an axis word is where the axis goes.
 fn keeps_places(code: Meaning) -> bool {
     code.position_offset().is_some()
-        || matches!(code, Meaning::ExactStop | Meaning::RapidWithoutCheck | Meaning::ReferenceCheck | Meaning::Skip)
+        || matches!(
+            code,
+            Meaning::ExactStop
+                | Meaning::RapidWithoutCheck
+                | Meaning::ReferenceCheck
+                | Meaning::Skip
+                | Meaning::ReturnFromReference
+        )
 }
 
 /// Where an axis word leads.
@@ -107,7 +114,7 @@ fn offset(here: &Here, which: usize, uses: fn(Meaning) -> Option<f64>, what: &st
     } else {
         let side =
             matches!(here.in_force(roles.compensation), Some(Meaning::CompensationLeft | Meaning::CompensationRight));
-        side || here.one_shot().and_then(uses).is_some()
+        side || cuts_circle(here.one_shot()) || here.one_shot().and_then(uses).is_some()
     };
     let how = if acts { "it acts here" } else { "chosen, and not in use here" };
     format!("chooses the {cell} for {what}; {how}")
@@ -121,18 +128,27 @@ fn number(here: &Here, letter: u8, value: f64) -> Option<String> {
         b'P' if here.has_m(MMeaning::SubprogramCall) || macro_call => format!("calls program O{count}"),
         b'P' if here.has_m(MMeaning::SubprogramEnd) => format!("goes on at block N{count} of the calling program"),
         b'P' if here.has_m(MMeaning::InterruptOn) => format!("an interrupt goes on at block N{count}"),
+        b'P' if here.has_code(Meaning::ScalingOn) => format!("factor of scaling: {}", plain(value / 1000.0, 3)),
+        b'P' if shot == Some(Meaning::WriteData) && here.has(b'Q') => format!("work system {count}"),
+        b'P' if shot == Some(Meaning::WriteData) => format!("number of the offset: {count}"),
         b'P' if shot == Some(Meaning::OtherReferenceReturn) => format!("reference point {count}"),
         b'Q' if here.has_m(MMeaning::SubprogramCall) => format!("begins at block N{count} of that program"),
         b'Q' if matches!(here.cycle(), Some(Meaning::Peck | Meaning::HighSpeedPeck)) => "depth of each cut".to_owned(),
-        b'Q' if matches!(here.cycle(), Some(Meaning::FineBore | Meaning::BackBore)) => {
-            "shift away from the wall, spindle oriented".to_owned()
-        }
+        b'Q' if shifts(here) => "shift away from the wall, spindle oriented".to_owned(),
         b'L' if here.has_m(MMeaning::SubprogramCall) || macro_call => format!("{count} times"),
         b'L' if is_pattern(shot) => format!("{} holes", plain(value.abs(), 0)),
         b'L' if here.cycle().is_some() && value == 0.0 => "the cycle's data are kept, no hole is made".to_owned(),
         b'L' if here.cycle().is_some() => format!("the hole {count} times"),
         _ => return None,
     })
+}
+
+fn shifts(here: &Here) -> bool {
+    matches!(here.cycle(), Some(Meaning::FineBore | Meaning::BackBore))
+}
+
+fn cuts_circle(code: Option<Meaning>) -> bool {
+    matches!(code, Some(Meaning::CircleCutClockwise | Meaning::CircleCutCounterClockwise))
 }
 
 fn is_pattern(code: Option<Meaning>) -> bool {
@@ -152,9 +168,21 @@ fn geometry(here: &Here, letter: u8, value: f64) -> Option<String> {
             _ => "R level of the hole".to_owned(),
         });
     }
+    if cuts_circle(shot) {
+        return (letter == b'I').then(|| "radius of the hole".to_owned());
+    }
+    if shot == Some(Meaning::WriteData) {
+        let how = if here.is_absolute() { "takes the place of what the cell holds" } else { "is added to the cell" };
+        return (letter == b'R').then(|| format!("value of the offset: it {how}"));
+    }
     if here.cycle().is_some() {
         let whence = if here.is_absolute() { "absolute" } else { "counted from the initial level" };
-        return (letter == b'R').then(|| format!("R level, to which the tool comes at rapid: {whence}"));
+        return match letter {
+            b'R' => Some(format!("R level, to which the tool comes at rapid: {whence}")),
+            b'I' if shifts(here) => Some("shift away from the wall along X, spindle oriented".to_owned()),
+            b'J' if shifts(here) => Some("shift away from the wall along Y, spindle oriented".to_owned()),
+            _ => None,
+        };
     }
     let keeps = shot.is_none_or(|code| code.position_offset().is_some() || code == Meaning::ExactStop);
     if !keeps || !here.motion().is_some_and(Meaning::is_arc) {

@@ -14,7 +14,7 @@ use super::quantity::{coordinate, plain};
 const KNOWN: &[&str] = &[
     "groups", "feed", "spindle", "tool", "index", "h", "d", "machine", "base_origin", "common_shift", "universal_zero",
     "length", "length_due", "displacement", "cycle", "unknown", "sequence", "miscellaneous", "block_control",
-    "feed_control",
+    "feed_control", "memory_mark",
 ];
 
 /// Fields of the cycle's data that have a line of their own below.
@@ -37,8 +37,8 @@ pub struct Moment<'m> {
     pub state: &'m State,
     /// Where the axes are, mm and degrees, machine coordinates.
     pub at: &'m Point,
-    /// Where program zero lies.
-    pub zero: &'m Point,
+    /// The same in program coordinates.
+    pub program: &'m Point,
 }
 
 /// Every value that differs between two moments.
@@ -60,7 +60,7 @@ pub fn codes_in_force(control: &Control, state: &State) -> Vec<(u8, String)> {
 }
 
 fn values(control: &Control, axes: &[MachineAxis], moment: Moment) -> Vec<(String, String)> {
-    let Moment { state, at, zero } = moment;
+    let Moment { state, at, program } = moment;
     let mut list = Vec::new();
     for (index, group) in control.shown_groups() {
         let unknown = state.unknown.group(index);
@@ -75,13 +75,9 @@ fn values(control: &Control, axes: &[MachineAxis], moment: Moment) -> Vec<(Strin
     }
     list.push(("length offset".to_owned(), coordinate(state.length / 1e6)));
     list.push(("length offset still to be moved".to_owned(), coordinate(state.length_due / 1e6)));
-    let mut program = [0.0; AXES];
-    for axis in 0..AXES {
-        program[axis] = at[axis] - zero[axis];
-    }
     let counts = |point: &Point| point.map(|value| value / 1e6);
     points(axes, "machine", at, state.unknown.axes, &mut list);
-    points(axes, "program", &program, state.unknown.axes, &mut list);
+    points(axes, "program", program, state.unknown.axes, &mut list);
     points(axes, "base origin", &counts(&state.base_origin), state.unknown.origins, &mut list);
     points(axes, "shift of all systems", &counts(&state.common_shift), AxisSet::NONE, &mut list);
     points(axes, "zero of the UNIVERSAL display", &counts(&state.universal_zero), AxisSet::NONE, &mut list);
@@ -111,6 +107,10 @@ fn values(control: &Control, axes: &[MachineAxis], moment: Moment) -> Vec<(Strin
 
 /// A value known by what the compiler prints of it: structures field by field, points axis by axis, sets by letters.
 fn other(axes: &[MachineAxis], name: &str, value: &str, list: &mut Vec<(String, String)>) {
+    let value = value.strip_prefix("Some(").and_then(|rest| rest.strip_suffix(')')).unwrap_or(value);
+    if value == "None" {
+        return list.push((name.to_owned(), "-".to_owned()));
+    }
     let within = fields(value);
     if !within.is_empty() {
         // Where nothing is mirrored its line means nothing.
@@ -142,7 +142,21 @@ fn other(axes: &[MachineAxis], name: &str, value: &str, list: &mut Vec<(String, 
                 list.push((format!("{name} {}", char::from(axis.letter)), coordinate(counts / 1e6)));
             }
         }
-        None => list.push((name.to_owned(), value.to_owned())),
+        None if !value.starts_with('[') => list.push((name.to_owned(), shortened(value))),
+        None => {
+            let parts = value.trim_matches(['[', ']']).split(',').filter_map(|part| part.trim().parse::<f64>().ok());
+            let parts: Vec<_> = parts.map(|counts| coordinate(counts / 1e6)).collect();
+            list.push((name.to_owned(), shortened(&parts.join(" "))));
+        }
+    }
+}
+
+/// A value that has no form of its own, short enough for its line.
+fn shortened(value: &str) -> String {
+    const MOST: usize = 24;
+    match value.char_indices().nth(MOST) {
+        Some((at, _)) => format!("{}…", value.get(..at).unwrap_or_default()),
+        None => value.to_owned(),
     }
 }
 

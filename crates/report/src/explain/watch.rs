@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use base::{Alarm, Place, Point, SourceId};
+use base::{AXES, Alarm, Place, Point, SourceId};
 use machine::{Event, EventKind};
 use meaning::{State, StatementRead, WordsRead};
 use station::{Library, LibraryError, Session, Step};
@@ -33,8 +33,8 @@ pub struct Watched {
     pub before: State,
     /// The state after it; that before it if it was refused.
     pub after: State,
-    /// Where program zero lies before and after it, mm and degrees, machine coordinates.
-    pub zero: [Point; 2],
+    /// Where the axes are before and after it, mm and degrees, program coordinates.
+    pub program: [Point; 2],
     /// Where the axes are before and after it, mm and degrees, machine coordinates.
     pub at: [Point; 2],
     /// What H and D select after it, mm.
@@ -125,7 +125,7 @@ impl Watch {
             pass,
             before,
             after,
-            zero: [interpreter.program_zero(&before), interpreter.program_zero(&after)],
+            program: [programmed(session, &before, session.position()); 2],
             at: [*session.position(); 2],
             offsets: [mm(memory.length(after.h)), mm(memory.radius(after.d))],
             words: interpreter.words_read().cloned().unwrap_or_default(),
@@ -152,7 +152,7 @@ impl Watch {
                 pass: if let Wanted::Line(_, pass) = wanted { pass } else { 1 },
                 before: read.state,
                 after: read.state,
-                zero: [interpreter.program_zero(&read.state); 2],
+                program: [programmed(session, &read.state, &at); 2],
                 at: [at; 2],
                 offsets: [None; 2],
                 words: WordsRead::default(),
@@ -175,8 +175,8 @@ impl Watch {
         if let EventKind::Alarm(alarm) = event.kind {
             block.alarm = Some(alarm);
             block.after = block.before;
-            block.zero[1] = block.zero[0];
         }
+        block.program[1] = programmed(session, &block.after, &block.at[1]);
         if event.kind != EventKind::BlockDone {
             block.event_count += 1;
             if block.events.len() < MOST_EVENTS {
@@ -184,4 +184,13 @@ impl Watch {
             }
         }
     }
+}
+
+/// A place in the coordinates of a program.
+fn programmed<L: Library>(session: &Session<L>, state: &State, machine: &Point) -> Point {
+    let mut program = [0.0; AXES];
+    for axis in 0..session.configuration().machine.axes.len().min(AXES) {
+        program[axis] = session.interpreter().programmed(state, axis, machine[axis] * 1e6) / 1e6;
+    }
+    program
 }
