@@ -44,6 +44,21 @@ pub enum Command {
     /// Read images of punched tape (EIA RS-244, ISO 840) to text, and punch text
     #[command(subcommand)]
     Tape(TapeCommand),
+    /// Say what every word of a block does under this control, and what the block changes
+    #[command(
+        after_help = "Examples:\n  cyclestart explain part.nc:64 --setup part.setup.toml\n  echo 'G91 G28 Z0' | cyclestart explain -"
+    )]
+    Explain(ExplainArguments),
+    /// Print the set-up sheet: tools, offsets, work systems, codes, stops, times
+    #[command(
+        after_help = "Examples:\n  cyclestart sheet part.nc --setup part.setup.toml\n  cyclestart sheet part.nc --setup part.setup.toml -o part.html"
+    )]
+    Sheet(SheetArguments),
+    /// Rewrite programs in house style, proved to run as before
+    #[command(
+        after_help = "Examples:\n  cyclestart fmt programs/ --check\n  cyclestart fmt part.nc --number 10,10 -o part-numbered.nc"
+    )]
+    Fmt(FmtArguments),
     /// List the controls, or print one control's tables
     #[command(after_help = "Example:\n  cyclestart controls yasnac-mx1")]
     Controls(ControlsArguments),
@@ -287,6 +302,79 @@ pub struct TapePunchArguments {
     /// Whose tape, and how it is shown.
     #[command(flatten)]
     pub tape: TapeArguments,
+}
+
+/// How an explanation is printed.
+#[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExplainFormat {
+    /// For people.
+    Text,
+    /// A JSON array, one object a block.
+    Json,
+}
+
+/// `explain`
+#[derive(Args, Debug)]
+pub struct ExplainArguments {
+    /// The line of a program, - for blocks typed on standard input
+    #[arg(value_name = "FILE:LINE")]
+    pub place: String,
+    /// Which execution of the block is meant
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    pub pass: u64,
+    /// How the explanation is printed
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: ExplainFormat,
+    /// The control and its set-up.
+    #[command(flatten)]
+    pub setting: SettingArguments,
+}
+
+/// How a set-up sheet is printed.
+#[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SheetFormat {
+    /// For the terminal.
+    Text,
+    /// A JSON object.
+    Json,
+    /// A page for the printer, A4.
+    Html,
+}
+
+/// `sheet`
+#[derive(Args, Debug)]
+pub struct SheetArguments {
+    /// The program, - for standard input
+    pub file: String,
+    /// How the sheet is printed [default: by the ending of OUT, text without one]
+    #[arg(long, value_enum)]
+    pub format: Option<SheetFormat>,
+    /// The file to write instead of standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    /// The control and its set-up.
+    #[command(flatten)]
+    pub setting: SettingArguments,
+}
+
+/// `fmt`
+#[derive(Args, Debug)]
+pub struct FmtArguments {
+    /// Programs, folders or patterns, - for standard input (the result goes to standard output)
+    #[arg(required = true)]
+    pub files: Vec<String>,
+    /// Write nothing: print what would change, and fail if anything would
+    #[arg(long)]
+    pub check: bool,
+    /// New sequence numbers for every block, as 10,10: the first, and the step; jumps are led to them
+    #[arg(long, value_name = "START,STEP")]
+    pub number: Option<String>,
+    /// Write the one program here instead of over itself, - for standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<String>,
+    /// The control and its set-up.
+    #[command(flatten)]
+    pub setting: SettingArguments,
 }
 
 /// `controls`

@@ -3,9 +3,12 @@
 pub mod check;
 pub mod controls;
 pub mod coverage;
+pub mod explain;
+pub mod fmt;
 pub mod operate;
 pub mod plot;
 pub mod run;
+pub mod sheet;
 pub mod tape;
 pub mod trace;
 

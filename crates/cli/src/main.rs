@@ -5,6 +5,7 @@
 mod arguments;
 mod command;
 mod failure;
+mod named_programs;
 mod output;
 mod setting;
 mod show_alarm;
@@ -48,6 +49,9 @@ fn run(command: Command) -> Result<bool, Failure> {
         Command::Operate(arguments) => command::operate::operate(&arguments),
         Command::Tape(arguments) => command::tape::tape(&arguments),
         Command::Plot(arguments) => command::plot::plot(&arguments),
+        Command::Explain(arguments) => command::explain::explain(&arguments),
+        Command::Sheet(arguments) => command::sheet::sheet(&arguments),
+        Command::Fmt(arguments) => command::fmt::fmt(&arguments),
         Command::Controls(arguments) => command::controls::controls(&arguments),
     }
 }

@@ -2,6 +2,8 @@
 
 use std::io::{self, IsTerminal, Write};
 
+use report::Paint;
+
 use crate::failure::Failure;
 
 /// Bytes gathered before they are written.
@@ -37,6 +39,18 @@ impl Output {
 /// Writes to standard error; that nobody reads it is no reason to fail.
 pub fn say(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// Lines for people are at least this long, on a pipe exactly this long.
+const WIDTH: usize = 80;
+/// Longer lines are hard to read.
+const WIDEST: usize = 100;
+
+/// How text for people is laid out on standard output.
+pub fn paint_out() -> Paint {
+    let terminal = io::stdout().is_terminal().then(terminal_size::terminal_size).flatten();
+    let width = terminal.map_or(WIDTH, |(width, _)| usize::from(width.0).clamp(WIDTH, WIDEST));
+    Paint { colour: colour_out(), width }
 }
 
 fn wants_colour() -> bool {

@@ -83,6 +83,11 @@ impl Texts {
         Ok(source)
     }
 
+    /// A text that is not in a file under this name, or not yet.
+    pub fn hold(&mut self, name: &str, bytes: Vec<u8>) -> Result<SourceId, Failure> {
+        self.spooled(name, Box::new(io::Cursor::new(bytes))).map_err(Failure::call)
+    }
+
     /// A stream, which is written to a temporary file as far as it is read.
     fn spooled(&mut self, name: &str, stream: Box<dyn Read>) -> Result<SourceId, String> {
         let file = tempfile::tempfile().map_err(|e| format!("no room to spool {name}: {e}"))?;

@@ -35,6 +35,8 @@ impl std::error::Error for FittingError {}
 #[derive(Clone, PartialEq, Debug)]
 pub struct Fitting {
     fitted: Vec<bool>,
+    /// Index of each policy's value, in the order of the control's rows.
+    chosen: Vec<usize>,
     /// The options that code asks for.
     pub options: Options,
     /// The policies that code reads.
@@ -55,6 +57,7 @@ impl Fitting {
     pub fn stock(control: &Control) -> Fitting {
         let mut fitting = Fitting {
             fitted: control.options.iter().map(|row| row.default).collect(),
+            chosen: control.policies.iter().map(|row| row.default).collect(),
             options: Options::default(),
             policies: Policies::default(),
             parameters: control.parameters.iter().map(|row| row.default).collect(),
@@ -139,17 +142,25 @@ impl Fitting {
     /// # Errors
     /// The control has no such policy, or the policy no such value.
     pub fn set_policy(&mut self, control: &Control, name: &str, value: &str) -> Result<(), FittingError> {
-        let Some(row) = control.policies.iter().find(|row| row.name == name) else {
+        let Some(index) = control.policies.iter().position(|row| row.name == name) else {
             return Err(unknown("policy", name, control.policies.iter().map(|row| row.name.as_str())));
         };
-        if !row.values.iter().any(|known| known == value) {
+        let row = &control.policies[index];
+        let Some(choice) = row.values.iter().position(|known| known == value) else {
             return Err(FittingError(format!("policy `{name}` is one of {}, not `{value}`", row.values.join(", "))));
-        }
+        };
         if !KNOWN.iter().any(|(known, _)| *known == name) && row.values.get(row.default).is_none_or(|d| d != value) {
             return Err(FittingError(format!("policy `{name}` = {value} is not built yet: it would have no effect")));
         }
         self.policies.set(name, value);
+        self.chosen[index] = choice;
         Ok(())
+    }
+
+    /// The value that the policy of this row has.
+    pub fn policy_value<'c>(&self, control: &'c Control, row: usize) -> &'c str {
+        let values = control.policies.get(row).map(|policy| &policy.values);
+        values.zip(self.chosen.get(row)).and_then(|(values, &index)| values.get(index)).map_or("", String::as_str)
     }
 
     /// Writes a parameter or one bit of it.

@@ -19,6 +19,7 @@ mod station;
 mod user_macro;
 mod warning;
 mod word;
+mod word_order;
 
 pub use address::{Address, AddressKind, PointRule};
 pub use alarm::AlarmRow;
@@ -41,6 +42,7 @@ pub use row::{
     Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,
 };
 pub use station::{ModeKind, ModeRow, StationTable};
+pub use word_order::put_in_order;
 
 pub use user_macro::{ArgumentRow, FunctionRow, UserMacro, VariableRow};
 pub use warning::{OwnWarning, WarningRow};

@@ -97,6 +97,9 @@ pub struct PolicyRow {
     pub default: usize,
     /// What is open and what each value does, for people.
     pub text: String,
+    /// Where it decides: each entry is a set of words that a block must have (`explain` knows them); `None` if the row
+    /// does not say, and the codes named in its text stand for it.
+    pub bears_on: Option<Vec<String>>,
     /// What the default rests on.
     pub origin: Origin,
 }

@@ -10,6 +10,6 @@ mod travel;
 mod virtual_machine;
 
 pub use event::{Event, EventKind, ResetCause, StopCause};
-pub use file::{CodeTimes, MachineFile, Wiring, builtin_machine, builtin_machines, read_machine};
+pub use file::{CodeTimes, MachineAxis, MachineFile, Wiring, builtin_machine, builtin_machines, read_machine};
 pub use travel::Travel;
 pub use virtual_machine::{Machine, Refusal, VirtualMachine};

@@ -11,6 +11,7 @@ use crate::command::Command;
 use crate::jump::{Calls, Found};
 use crate::operation::{RapidKind, Side};
 use crate::position_offset::PositionOffset;
+use crate::record::ReadAs;
 use crate::setting::Setting;
 use crate::state::State;
 use crate::unknown::letter_bit;
@@ -86,7 +87,7 @@ pub(crate) fn read_meaning(
     command: &mut Command,
 ) -> Result<Flow, Refusal> {
     let (word_count, cut) = cut_by_block_delete(block, setting.switches.block_delete);
-    let mut words = Words::new(block, command.place, word_count);
+    let mut words = Words::new(block, command.place, word_count, setting.record.as_ref());
     // The multiplier counts in program text and in a macro call's arguments, not inside a macro's body.
     words.coarse = if setting.fitting.options.input_x10 && calls.macro_level() == 0 { 10 } else { 1 };
     check_faults(setting, &words, block, cut)?;
@@ -339,7 +340,11 @@ impl Reading<'_> {
             control.length(address, number, self.units, self.words.coarse)
         };
         match value {
-            Ok(value) => Ok((value as f64, number.negative)),
+            Ok(value) => {
+                let read = if facts.rotary { ReadAs::Angle } else { ReadAs::Length };
+                self.words.note(facts.letter, read, value as f64 / 1e6);
+                Ok((value as f64, number.negative))
+            }
             Err((condition, values)) => Err(self.words.alarm(condition, facts.letter).with(values).on_axis(axis)),
         }
     }

@@ -66,6 +66,7 @@ impl Reading<'_> {
                 .integer(address, number)
                 .map_err(|(condition, values)| self.words.alarm_at(condition, word).with(values))?;
             let code = u32::try_from(code).unwrap_or(u32::MAX);
+            self.words.note_m(code);
             let Some(row) = control.m_code(code) else {
                 self.send_builders_code(code, digits, word)?;
                 self.next.miscellaneous = code;

@@ -12,7 +12,7 @@ use crate::setting::Setting;
 use crate::state::State;
 
 /// The axis on which the tool length offset acts, whatever the plane.
-pub(crate) const LENGTH_AXIS: u8 = b'Z';
+pub const LENGTH_AXIS: u8 = b'Z';
 
 impl Setting {
     /// Machine coordinate of program zero on an axis in a state, offsets included (counts).

@@ -5,6 +5,7 @@ use base::{Alarm, Condition};
 use crate::block::Reading;
 use crate::command::Body;
 use crate::operation::Dwell;
+use crate::record::ReadAs;
 
 /// Bits of the parameter for dwells under feed per revolution: they count turns; a plain number counts whole turns.
 const IN_TURNS: u8 = 1;
@@ -35,6 +36,10 @@ impl Reading<'_> {
             control.dwell_seconds(address, number).map(Dwell::Seconds)
         };
         let mut dwell = dwell.map_err(|(condition, values)| self.words.alarm(condition, letter).with(values))?;
+        match dwell {
+            Dwell::Seconds(seconds) => self.words.note(letter, ReadAs::Seconds, seconds),
+            Dwell::Revolutions { turns, .. } => self.words.note(letter, ReadAs::Turns, turns),
+        }
         if let Dwell::Revolutions { rpm, .. } = &mut dwell {
             *rpm = self.spindle_rpm().map_err(|condition| self.words.alarm(condition, letter))?;
         }

@@ -6,6 +6,7 @@ use dialect::{FeedModeChange, InchFeedInteger, Meaning};
 
 use crate::block::Reading;
 use crate::operation::Feed;
+use crate::record::ReadAs;
 use crate::state::FeedWord;
 
 impl Reading<'_> {
@@ -22,7 +23,9 @@ impl Reading<'_> {
         let per_revolution = self.is_per_revolution();
         let one_digit = number.digits == 1 && !number.point && !number.negative;
         if one_digit && !per_revolution && self.setting.fitting.options.one_digit_feed {
-            self.next.feed = FeedWord { nanometres: self.stored_feed(number.mantissa)?, per_revolution, inch: false };
+            let nanometres = self.stored_feed(number.mantissa)?;
+            self.words.note(b'F', ReadAs::FeedPerMinute, nanometres / 1e6);
+            self.next.feed = FeedWord { nanometres, per_revolution, inch: false };
             return Ok(());
         }
         let nanometres = if per_revolution {
@@ -32,6 +35,8 @@ impl Reading<'_> {
             control.feed_per_minute(address, number, self.units, tenths)
         };
         let nanometres = nanometres.map_err(|(condition, values)| self.words.alarm(condition, b'F').with(values))?;
+        let read = if per_revolution { ReadAs::FeedPerRevolution } else { ReadAs::FeedPerMinute };
+        self.words.note(b'F', read, nanometres / 1e6);
         self.next.feed = FeedWord { nanometres, per_revolution, inch: self.units == UnitSystem::Inch };
         Ok(())
     }

@@ -23,6 +23,7 @@ impl Reading<'_> {
                 continue;
             }
             let row = self.g_row(word)?;
+            self.words.note_g(word, row);
             if count == MOST_G {
                 return Err(self.words.alarm_at(Condition::BlockTooLong, word).with([MOST_G as f64, 0.0, 0.0]));
             }

@@ -14,6 +14,7 @@ use crate::operation::{Act, Close, EndKind, Operation};
 use crate::pull::{Answer, Barrier, BarrierKind, Pull, StaleBarrier};
 use crate::queue::Queue;
 use crate::reader::{Read, Reader, empty_command};
+use crate::record::{StatementRuns, WordsRead};
 use crate::setting::Setting;
 use crate::state::State;
 use crate::supply::WINDOW;
@@ -74,6 +75,7 @@ impl Interpreter {
             length_axis,
             axis_letters,
             code_letters,
+            record: None,
         };
         Interpreter {
             reader: Reader::new(setting, state),
@@ -201,6 +203,29 @@ impl Interpreter {
     /// The state of the block being executed; what was read last if none is.
     pub fn executing_state(&self) -> &State {
         self.queue.front().map_or(&self.reader.state, |command| &command.after)
+    }
+
+    /// The state before the block being executed.
+    pub fn state_before(&self) -> &State {
+        self.queue.previous().map_or(&self.start_state, |command| &command.after)
+    }
+
+    /// From now on it is kept how words are read, for whoever explains the program, and what every macro statement does
+    /// at this execution of it, counted from 1.
+    pub fn record_words(&mut self, pass: u64) {
+        self.reader.setting.record = Some(std::cell::RefCell::default());
+        self.reader.records.pass = pass;
+        self.reader.tells_variables = true;
+    }
+
+    /// The macro statements carried out so far, if that is recorded.
+    pub fn statements_read(&self) -> impl Iterator<Item = &StatementRuns> {
+        self.reader.records.statements()
+    }
+
+    /// How the words of the block being executed were read, if that is recorded.
+    pub fn words_read(&self) -> Option<&WordsRead> {
+        self.queue.front().and_then(|command| self.reader.words_read(command.block))
     }
 
     /// A later stage refused the block: checking on, these axes are unknown.
@@ -416,6 +441,16 @@ impl Interpreter {
     /// The word of an axis that leads to a machine coordinate in a state (counts).
     pub fn programmed(&self, state: &State, axis: usize, machine: f64) -> f64 {
         self.reader.setting.programmed(state, axis, machine)
+    }
+
+    /// Where program zero lies in a state, offsets included: mm and degrees, machine coordinates.
+    pub fn program_zero(&self, state: &State) -> Point {
+        let setting = &self.reader.setting;
+        let mut zero = [0.0; AXES];
+        for axis in 0..setting.facts.axes.len().min(AXES) {
+            zero[axis] = setting.zero(state, axis) / 1e6;
+        }
+        zero
     }
 
     /// What the UNIVERSAL display shows for a machine position.

@@ -33,6 +33,7 @@ mod program;
 mod pull;
 mod queue;
 mod reader;
+mod record;
 mod reference_point;
 mod repetition;
 mod scaling;
@@ -48,6 +49,7 @@ mod word;
 mod wording;
 
 pub use command::{Command, CycleLevels, Finish};
+pub use coordinate::LENGTH_AXIS;
 pub use facts::{AxisFacts, CodeRules, MachineFacts, Memory, OffsetTable, Switches};
 pub use interpreter::Interpreter;
 pub use interrupt::Interrupt;
@@ -57,6 +59,7 @@ pub use operation::{
 };
 pub use program::Pointer;
 pub use pull::{Answer, Barrier, BarrierKind, Pull, Quantity, StaleBarrier};
+pub use record::{ReadAs, StatementRead, StatementRuns, WordsRead};
 pub use reference_point::ReferenceData;
 pub use state::{Corner, FeedWord, State};
 pub use supply::WINDOW;

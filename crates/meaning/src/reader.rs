@@ -15,6 +15,7 @@ use crate::jump::{Calls, Found, LoopsAround, Progress, Search};
 use crate::operation::{CodeLine, CodeOut, EndKind, SetValue, Side};
 use crate::program::{CalledBy, Frame, Names};
 use crate::pull::Quantity;
+use crate::record::{Records, WordsRead};
 use crate::repetition::Repetition;
 use crate::setting::Setting;
 use crate::state::State;
@@ -96,6 +97,7 @@ pub(crate) struct Reader {
     /// The arguments with which each level was called, for its repeats.
     called_with: Vec<Arguments>,
     modal: Option<ModalCall>,
+    pub(crate) records: Records,
 }
 
 impl Reader {
@@ -131,7 +133,13 @@ impl Reader {
             arguments: [BLANK; LOCALS],
             called_with: vec![[BLANK; LOCALS]; macro_levels + 1],
             modal: None,
+            records: Records::default(),
         }
+    }
+
+    /// How the words of a block read not long ago were read, if that is recorded.
+    pub fn words_read(&self, block: u64) -> Option<&WordsRead> {
+        self.records.of(block)
     }
 
     /// Puts the reader at the head of a program, which begins at `head` in its text; `name` is used if no O word names it.
@@ -288,6 +296,9 @@ impl Reader {
                 }
                 self.name_program();
             }
+            if let Some(record) = &self.setting.record {
+                record.borrow_mut().clear();
+            }
             let read = match line {
                 None if unsound.is_some() => self.refuse_rows(unsound, &frame, command),
                 Some(line) => self.take_line(line, &frame, command),
@@ -297,6 +308,9 @@ impl Reader {
                 }
             };
             if let Some(read) = read {
+                if let Some(record) = &self.setting.record {
+                    self.records.keep(command.block, record.borrow().clone());
+                }
                 return read;
             }
         }

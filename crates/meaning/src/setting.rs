@@ -1,11 +1,13 @@
 //! What holds while programs run: the control as fitted, the machine, memory and switches.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use base::{AXES, Point};
 use dialect::{Control, Fitting};
 
 use crate::facts::{MachineFacts, Memory, Switches};
+use crate::record::WordsRead;
 
 /// What holds while programs run.
 pub(crate) struct Setting {
@@ -20,6 +22,8 @@ pub(crate) struct Setting {
     pub axis_letters: u32,
     /// The letters of codes that go out.
     pub code_letters: u32,
+    /// How the words of the block at hand are read, where that is recorded.
+    pub record: Option<RefCell<WordsRead>>,
 }
 
 impl Setting {

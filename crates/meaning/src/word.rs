@@ -1,8 +1,12 @@
 //! A block's words by their letters, and their values as the control means them.
 
+use std::cell::RefCell;
+
 use base::{Alarm, Condition, Decimal, Place, Span, UnitSystem};
 use dialect::{Address, Control};
 use syntax::{Block, Value, Word};
+
+use crate::record::{ReadAs, WordsRead};
 
 /// Most G codes looked at in one block.
 pub(crate) const MOST_G: usize = 64;
@@ -28,20 +32,52 @@ pub(crate) struct Words<'b> {
     pub place: Place,
     /// How many least increments a plain length counts in units of one.
     pub coarse: i64,
+    record: Option<&'b RefCell<WordsRead>>,
     by_letter: [u8; 26],
     present: u32,
 }
 
 impl<'b> Words<'b> {
     /// The words of a block, `words` of them (a block-delete sign may cut the rest off).
-    pub fn new(block: &'b Block, place: Place, words: usize) -> Words<'b> {
+    pub fn new(block: &'b Block, place: Place, words: usize, record: Option<&'b RefCell<WordsRead>>) -> Words<'b> {
+        if let Some(record) = record {
+            record.borrow_mut().clear();
+        }
         let mut by_letter = [NO_WORD; 26];
         let mut present = 0;
         for (index, word) in block.words.iter().take(words.min(usize::from(NO_WORD))).enumerate() {
             by_letter[usize::from(word.letter - b'A') % 26] = index as u8;
             present |= crate::unknown::letter_bit(word.letter);
         }
-        Words { block, place, coarse: 1, by_letter, present }
+        Words { block, place, coarse: 1, record, by_letter, present }
+    }
+
+    /// Notes what a word was read as, where that is recorded; the value is in mm, degrees, seconds or a plain number.
+    pub fn note(&self, letter: u8, read: ReadAs, value: f64) {
+        if let Some(record) = self.record {
+            record.borrow_mut().note(letter, read, value);
+        }
+    }
+
+    /// Notes a G code by its row.
+    pub fn note_g(&self, word: &Word, row: u8) {
+        if let Some(record) = self.record {
+            record.borrow_mut().g_rows.push((word.extent.at, row));
+        }
+    }
+
+    /// Notes the argument of a macro call.
+    pub fn note_argument(&self, word: &Word, variable: usize, value: f64) {
+        if let Some(record) = self.record {
+            record.borrow_mut().arguments.push((word.extent.at, variable, value));
+        }
+    }
+
+    /// Notes an M code.
+    pub fn note_m(&self, code: u32) {
+        if let Some(record) = self.record {
+            record.borrow_mut().m_codes.push(code);
+        }
     }
 
     /// True if a word of this letter stands in the block.
@@ -69,7 +105,11 @@ impl<'b> Words<'b> {
     pub fn number(&self, letter: u8) -> Result<Option<Decimal>, Alarm> {
         match self.word(letter) {
             None => Ok(None),
-            Some(word) => self.value(word).map(Some),
+            Some(word) => {
+                let number = self.value(word)?;
+                self.note(letter, ReadAs::Number, number.to_f64());
+                Ok(Some(number))
+            }
         }
     }
 
@@ -100,6 +140,12 @@ impl<'b> Words<'b> {
         }
     }
 
+    /// A value, noted in units of so many counts.
+    fn noted(&self, letter: u8, read: ReadAs, value: f64, counts: f64) -> f64 {
+        self.note(letter, read, value / counts);
+        value
+    }
+
     fn read<T>(
         &self,
         control: &Control,
@@ -115,18 +161,21 @@ impl<'b> Words<'b> {
 
     /// A word as a length in nanometres.
     pub fn length(&self, control: &Control, letter: u8, units: UnitSystem) -> Result<Option<f64>, Alarm> {
-        self.read(control, letter, |address, number| control.length(address, number, units, self.coarse))
-            .map(|n| n.map(|n| n as f64))
+        let length =
+            self.read(control, letter, |address, number| control.length(address, number, units, self.coarse))?;
+        Ok(length.map(|counts| self.noted(letter, ReadAs::Length, counts as f64, 1e6)))
     }
 
     /// A word as an angle in microdegrees.
     pub fn angle(&self, control: &Control, letter: u8) -> Result<Option<f64>, Alarm> {
-        self.read(control, letter, |address, number| control.angle(address, number)).map(|n| n.map(|n| n as f64))
+        let angle = self.read(control, letter, |address, number| control.angle(address, number))?;
+        Ok(angle.map(|counts| self.noted(letter, ReadAs::Angle, counts as f64, 1e6)))
     }
 
     /// A word as a whole number.
     pub fn integer(&self, control: &Control, letter: u8) -> Result<Option<i64>, Alarm> {
-        self.read(control, letter, |address, number| control.integer(address, number))
+        let whole = self.read(control, letter, |address, number| control.integer(address, number))?;
+        Ok(whole.inspect(|&whole| self.note(letter, ReadAs::Whole, whole as f64)))
     }
 
     /// A word as a whole number that is not negative.
@@ -142,6 +191,7 @@ impl<'b> Words<'b> {
 
     /// A dwell in seconds.
     pub fn seconds(&self, control: &Control, letter: u8) -> Result<Option<f64>, Alarm> {
-        self.read(control, letter, |address, number| control.dwell_seconds(address, number))
+        let seconds = self.read(control, letter, |address, number| control.dwell_seconds(address, number))?;
+        Ok(seconds.map(|seconds| self.noted(letter, ReadAs::Seconds, seconds, 1.0)))
     }
 }

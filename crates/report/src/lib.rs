@@ -5,15 +5,24 @@
 mod control_table;
 mod coverage;
 mod excerpt;
+mod explain;
 mod face;
+mod house_style;
 mod json;
+mod paint;
+mod remarks;
+mod sheet;
 mod summary;
 mod trace;
 
 pub use control_table::{control_list, control_table};
 pub use coverage::{CoveredRow, CoveringCase, coverage, rows_of};
 pub use excerpt::Excerpt;
+pub use explain::{Explanation, Wanted, Watch, Watched, explain, explanation_json, explanation_text};
 pub use face::{Format, begin, end, render, render_with_labels, separator};
+pub use house_style::{Difference, Formatted, HouseStyle, Numbering, house_style, same_run};
 pub use json::{JsonLine, push_number};
+pub use paint::Paint;
+pub use sheet::{Sheet, ToolSheet, sheet_html, sheet_json, sheet_text};
 pub use summary::Summary;
 pub use trace::Tracer;

@@ -245,7 +245,7 @@ fn short(value: f64) -> String {
 }
 
 /// Seconds as minutes and seconds, or hours.
-fn clock(seconds: f64) -> String {
+pub(crate) fn clock(seconds: f64) -> String {
     let tenths = (seconds * 10.0).round() as u64;
     let (minutes, rest) = (tenths / 600, tenths % 600);
     if minutes >= 60 {

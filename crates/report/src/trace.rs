@@ -212,6 +212,16 @@ impl<'c> Tracer<'c> {
             }
         }
     }
+
+    /// Events of this program need not name it.
+    pub(crate) fn set_main(&mut self, program: ProgramId) {
+        self.main = Some(program);
+    }
+
+    /// The word by which an event is known.
+    pub(crate) fn event_word(kind: &EventKind) -> &'static str {
+        event_name(kind)
+    }
 }
 
 fn alarm_fields(column: Option<u64>, diagnostic: Option<&Diagnostic>, line: &mut JsonLine) {
@@ -255,7 +265,7 @@ fn plane_name(plane: Plane) -> &'static str {
     }
 }
 
-fn stop_name(cause: StopCause) -> &'static str {
+pub(crate) fn stop_name(cause: StopCause) -> &'static str {
     match cause {
         StopCause::FeedHold => "feed-hold",
         StopCause::Program(StopKind::Program) => "M00",
@@ -265,7 +275,7 @@ fn stop_name(cause: StopCause) -> &'static str {
     }
 }
 
-fn cause_name(cause: ResetCause) -> &'static str {
+pub(crate) fn cause_name(cause: ResetCause) -> &'static str {
     match cause {
         ResetCause::Key => "reset-key",
         ResetCause::ProgramEnd => "program-end",

@@ -7,19 +7,19 @@ use tape::{Codes, Format, recognise};
 
 use crate::library::{Library, LibraryError};
 
-/// The numbers of the programs in a text and where each begins, in their order; the first of a number counts. `codes`
-/// are those of the control's tapes, if it reads any.
+/// Reads a text block by block, as it stands, whatever jumps it holds. `see` gets each block with its own characters
+/// and says whether to go on. `codes` are those of the control's tapes, if it reads any.
 ///
 /// # Errors
 /// The text cannot be read.
-pub fn programs_in(
+pub fn blocks_of(
     library: &mut impl Library,
     source: SourceId,
     grammar: &Grammar,
     codes: Option<Codes>,
-) -> Result<Vec<(u32, Cursor)>, LibraryError> {
-    let mut programs: Vec<(u32, Cursor)> = Vec::new();
-    let (mut block, mut bytes, mut begun) = (Block::default(), Vec::new(), false);
+    mut see: impl FnMut(&Block, &[u8]) -> bool,
+) -> Result<(), LibraryError> {
+    let (mut block, mut bytes) = (Block::default(), Vec::new());
     let (mut cursor, mut start, mut last, mut settled) = (Cursor::HEAD, 0u64, false, 0usize);
     let mut format = None;
     let codes_at_hand = codes.unwrap_or_default();
@@ -27,7 +27,7 @@ pub fn programs_in(
         let window = &bytes[((cursor.offset - start) as usize).min(settled)..settled];
         match read_block(window, last, cursor, grammar, &mut block) {
             Outcome::Block => {}
-            Outcome::End => return Ok(programs),
+            Outcome::End => return Ok(()),
             Outcome::More => {
                 start = cursor.offset;
                 last = read_window(library, source, start, &mut bytes)?;
@@ -41,8 +41,31 @@ pub fn programs_in(
                 continue;
             }
         }
+        let from = (block.start.offset - start) as usize;
+        let own = bytes.get(from..from.saturating_add(block.len as usize)).unwrap_or_default();
+        if !see(&block, own) {
+            return Ok(());
+        }
+        cursor = block.next;
+    }
+}
+
+/// The numbers of the programs in a text and where each begins, in their order; the first of a number counts. `codes`
+/// are those of the control's tapes, if it reads any.
+///
+/// # Errors
+/// The text cannot be read.
+pub fn programs_in(
+    library: &mut impl Library,
+    source: SourceId,
+    grammar: &Grammar,
+    codes: Option<Codes>,
+) -> Result<Vec<(u32, Cursor)>, LibraryError> {
+    let mut programs: Vec<(u32, Cursor)> = Vec::new();
+    let mut begun = false;
+    blocks_of(library, source, grammar, codes, |block, _| {
         if block.rewind && begun {
-            return Ok(programs);
+            return false;
         }
         begun |= !block.is_empty();
         let first = block.words.first().filter(|word| word.letter == b'O').map(|word| word.value);
@@ -52,8 +75,9 @@ pub fn programs_in(
         {
             programs.push((number, block.start));
         }
-        cursor = block.next;
-    }
+        true
+    })?;
+    Ok(programs)
 }
 
 /// Reads a whole window, however few bytes the library gives at a time; true if the text ends with it.

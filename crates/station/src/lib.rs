@@ -17,7 +17,7 @@ mod setup;
 mod switches;
 
 pub use action::{Action, OverrideSwitch, Show, Until};
-pub use catalogue::programs_in;
+pub use catalogue::{blocks_of, programs_in};
 pub use configuration::{Configuration, ConfigurationError, Inputs};
 pub use display::Value;
 pub use library::{Library, LibraryError, Shelf};

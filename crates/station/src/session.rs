@@ -75,7 +75,7 @@ pub struct Session<L> {
     /// The block before is done, and nothing of the next one has been executed.
     between_blocks: bool,
     /// The block at whose beginning the operator asked to be told.
-    told: Option<u64>,
+    told: Option<(u64, u64)>,
     /// The block of which something has been executed last.
     begun: Option<u64>,
     stopped: bool,
@@ -371,11 +371,13 @@ impl<L: Library> Session<L> {
         }
         self.pulled = true;
         let shaped = self.motion.upstream.current();
-        // The start of the program is no block.
-        if self.told == Some(shaped.block) || shaped.place.line == 0 {
+        // The start of the program is no block; it has the number of the first one.
+        // A macro statement has the number of the block behind it, and a place of its own.
+        let block = (shaped.block, shaped.place.block.start);
+        if shaped.place.line == 0 || self.told == Some(block) {
             return None;
         }
-        self.told = Some(shaped.block);
+        self.told = Some(block);
         Some(shaped.place)
     }
 }

@@ -6,12 +6,16 @@
 
 mod block;
 mod grammar;
+mod layout;
 mod lexer;
+mod macro_text;
 mod number;
 mod print;
 mod statement;
 
 pub use block::{Block, Cursor, Extent, Fault, Skip, Statement, StatementKind, Value, Word};
 pub use grammar::{Colon, Grammar, LowerCase, Semicolon};
+pub use layout::{Item, lay_out, take_apart};
 pub use lexer::{LONGEST, Outcome, read_block};
+pub use macro_text::goto_number;
 pub use print::print_block;

@@ -1,8 +1,7 @@
 //! `check`: every alarm the control would raise, and what is legal and dangerous, of many programs, without motion.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
-use std::{fs, io};
+use std::io;
 
 use base::Severity;
 use dialect::Fitting;
@@ -15,10 +14,11 @@ use warnings::{Choice, Finding, Outcomes, Rule, Watch, look_at_text, power_on_tr
 use super::{begin_session, run_through};
 use crate::arguments::{CheckArguments, FormatArgument, SettingArguments};
 use crate::failure::Failure;
+use crate::named_programs::named_programs;
 use crate::output::{Output, colour_out};
 use crate::setting;
 use crate::show_alarm::{show_alarm, show_warning};
-use crate::texts::{Texts, looks_like_program};
+use crate::texts::Texts;
 
 /// Findings that are remembered so as not to be said twice.
 const MOST_REMEMBERED: usize = 100_000;
@@ -123,7 +123,7 @@ fn check_all(arguments: &CheckArguments, counts: &mut Counts) -> Result<bool, Fa
         FormatArgument::Github => Format::Github,
     };
     let choice = Choice::new(&arguments.deny, &arguments.allow).map_err(Failure::call)?;
-    let files = files(&arguments.files)?;
+    let files = named_programs(&arguments.files)?;
     let mut findings = Findings { choice: &choice, format, output: Output::new(), counts, held: Vec::new() };
     findings.output.buffer.extend_from_slice(begin(format).as_bytes());
     for file in &files {
@@ -268,48 +268,4 @@ impl<'a> Program<'a> {
 
 fn count(number: u64, what: &str) -> String {
     if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
-}
-
-/// The programs that files, folders and patterns name, each once, in order.
-fn files(names: &[String]) -> Result<Vec<String>, Failure> {
-    let mut files = Vec::new();
-    for name in names {
-        let path = Path::new(name);
-        if name == "-" || (path.exists() && !path.is_dir()) {
-            files.push(name.clone());
-        } else if path.is_dir() {
-            let before = files.len();
-            programs_in(path, &mut files)?;
-            if files.len() == before {
-                return Err(Failure::call(format!(
-                    "{name}: the folder holds no programs (.nc .cnc .tap .eia .txt, O1234)"
-                )));
-            }
-        } else {
-            let matches = glob::glob(name).map_err(|e| Failure::call(format!("{name}: {e}")))?;
-            let mut found: Vec<PathBuf> = matches.flatten().filter(|path| path.is_file()).collect();
-            found.sort();
-            if found.is_empty() {
-                return Err(Failure::call(format!("cannot read {name}: there is no such file")));
-            }
-            files.extend(found.into_iter().map(|path| path.to_string_lossy().into_owned()));
-        }
-    }
-    let mut seen = BTreeSet::new();
-    files.retain(|file| seen.insert(file.clone()));
-    Ok(files)
-}
-
-fn programs_in(folder: &Path, files: &mut Vec<String>) -> Result<(), Failure> {
-    let cannot = |error| Failure::call(format!("cannot read {}: {error}", folder.display()));
-    let mut entries: Vec<PathBuf> = fs::read_dir(folder).map_err(cannot)?.flatten().map(|entry| entry.path()).collect();
-    entries.sort();
-    for path in entries {
-        if path.is_dir() && !path.is_symlink() {
-            programs_in(&path, files)?;
-        } else if path.is_file() && looks_like_program(&path) {
-            files.push(path.to_string_lossy().into_owned());
-        }
-    }
-    Ok(())
 }

@@ -30,6 +30,7 @@ pub(super) fn policy(row: &mut Table) -> PolicyRow {
         values,
         default: index.unwrap_or(0),
         text: row.required_string("text"),
+        bears_on: row.strings("bears_on"),
         origin: origin(row),
     }
 }

@@ -95,6 +95,7 @@ impl Reading<'_> {
                 }
             }
             let value = self.argument(index, word)?;
+            self.words.note_argument(word, variable, value);
             if let Some(slot) = self.arguments.get_mut(variable.wrapping_sub(1)) {
                 *slot = value;
             }

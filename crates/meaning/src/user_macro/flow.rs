@@ -16,6 +16,7 @@ use crate::jump::{LoopsAround, OpenLoop, Search, Target as Goal};
 use crate::operation::SetValue;
 use crate::program::Frame;
 use crate::reader::{Note, Read, Reader};
+use crate::record::StatementRead;
 
 /// Statements that may be carried out ahead of a block that is being executed.
 pub(crate) const MOST_AHEAD: u32 = 4096;
@@ -52,6 +53,9 @@ impl Reader {
             Ok(Next::Wait) => None,
             Ok(next) => {
                 self.answers.clear();
+                if self.setting.record.is_some() {
+                    self.record_statement(&line, &next, frame);
+                }
                 if line.sequence > 0 {
                     self.state.sequence = line.sequence;
                 }
@@ -73,6 +77,15 @@ impl Reader {
                 self.refuse_statement((condition, extent, values), frame, command)
             }
         }
+    }
+
+    /// Keeps what a statement did, for whoever explains the program.
+    fn record_statement(&mut self, line: &Line, next: &Next, frame: &Frame) {
+        let place = self.place_of(line, frame);
+        let wrote = self.notes.back().filter(|note| note.place == place).map(|note| note.value);
+        let to = if let Next::At(cursor) = next { cursor } else { &line.next };
+        let (state, goes_to) = (self.state, to.line);
+        self.records.statement(StatementRead { place, state, wrote, goes_to });
     }
 
     /// A statement (or a word with a variable) of the block at hand is refused.

@@ -1,0 +1,48 @@
+//! `sheet`: the set-up sheet that a shop prints.
+
+use std::fs;
+
+use report::{Format, Sheet, render, sheet_html, sheet_json, sheet_text};
+
+use super::open;
+use crate::arguments::{SheetArguments, SheetFormat};
+use crate::failure::Failure;
+use crate::output::{Output, colour_err, paint_out, say};
+use crate::show_alarm::show_alarm;
+
+pub fn sheet(arguments: &SheetArguments) -> Result<bool, Failure> {
+    let mut session = open(&arguments.file, &arguments.setting)?;
+    let mut sheet = Sheet::run(&mut session, |texts, source, offset, len| texts.excerpt(source, offset, len))
+        .map_err(Failure::call)?;
+    if let Some(alarm) = sheet.alarm {
+        let configuration = session.configuration().clone();
+        let (control, machine) = (&configuration.control, &configuration.machine);
+        let (diagnostic, excerpt) = show_alarm(&alarm, control, machine, session.library_mut());
+        say(&render(&diagnostic, &excerpt, Format::Text { colour: colour_err() }));
+        let name = diagnostic.alarm.map_or_else(String::new, |alarm| alarm.name);
+        sheet.alarm_text = Some(format!("line {}: alarm {name}, {}", excerpt.line, diagnostic.message));
+    }
+    let format = arguments.format.unwrap_or(match arguments.output.as_deref().and_then(|path| path.extension()) {
+        Some(ending) if ending.eq_ignore_ascii_case("html") || ending.eq_ignore_ascii_case("htm") => SheetFormat::Html,
+        Some(ending) if ending.eq_ignore_ascii_case("json") => SheetFormat::Json,
+        _ => SheetFormat::Text,
+    });
+    let mut paint = paint_out();
+    paint.colour &= arguments.output.is_none();
+    let text = match format {
+        SheetFormat::Text => sheet_text(&sheet, paint),
+        SheetFormat::Json => sheet_json(&sheet) + "\n",
+        SheetFormat::Html => sheet_html(&sheet),
+    };
+    match &arguments.output {
+        Some(path) => {
+            fs::write(path, text).map_err(|e| Failure::call(format!("cannot write {}: {e}", path.display())))?
+        }
+        None => {
+            let mut output = Output::new();
+            output.buffer.extend_from_slice(text.as_bytes());
+            output.flush()?;
+        }
+    }
+    Ok(sheet.alarm.is_none())
+}

@@ -1,0 +1,199 @@
+//! What a word is for in the block at hand, by the function that asked for it. `None` leaves it to the table's own words.
+
+use dialect::{MMeaning, Meaning};
+use meaning::ReadAs;
+
+use super::here::Here;
+use super::quantity::{coordinate, plain, quantity};
+
+/// What the word of this letter does here, of which this was read.
+pub fn role(here: &Here, letter: u8, read: ReadAs, value: f64) -> Option<String> {
+    if matches!(read, ReadAs::Seconds | ReadAs::Turns) {
+        return Some(match here.one_shot() {
+            Some(Meaning::Dwell) => "how long the axes wait".to_owned(),
+            _ => "how long the tool waits at the bottom of the hole".to_owned(),
+        });
+    }
+    if here.axis(letter).is_some() {
+        return axis(here, letter, value);
+    }
+    match letter {
+        b'N' => Some("sequence number: a target of jumps and searches; nothing happens".to_owned()),
+        b'O' => Some("program number: the program of this name begins".to_owned()),
+        b'F' => Some(feed(here)),
+        b'H' => Some(offset(here, 0, Meaning::length_offset, "length compensation")),
+        b'D' => Some(offset(here, 1, Meaning::position_offset, "tool radius or position")),
+        b'S' => Some("spindle speed, rev/min: goes out as the block begins".to_owned()),
+        b'T' => Some("tool number: goes out as the block begins; what the machine does is its builder's".to_owned()),
+        b'B' => Some("code of the B function, usually an index position: goes out to the machine".to_owned()),
+        b'P' | b'Q' | b'L' => number(here, letter, value),
+        b'I' | b'J' | b'K' | b'R' => geometry(here, letter, value),
+        _ => None,
+    }
+}
+
+fn axis(here: &Here, letter: u8, value: f64) -> Option<String> {
+    let name = char::from(letter);
+    let unit = if here.axis(letter).is_some_and(|(_, axis)| axis.rotary) { "deg" } else { "mm" };
+    let at = format!("{} {unit}", coordinate(value));
+    match here.one_shot() {
+        Some(Meaning::SetCoordinates) => return Some(format!("the present place is called {name} {at} from here on")),
+        Some(Meaning::MachineCoordinates) => {
+            return Some(format!("to machine {name} {at}; offsets and work system are left out"));
+        }
+        Some(Meaning::ReferenceReturn | Meaning::OtherReferenceReturn) => {
+            return Some(format!("by way of {}, then {name} goes to its reference point", place(here, letter, value)));
+        }
+        Some(Meaning::BoltCircle | Meaning::ArcPattern) => return Some(format!("{name} of the circle's centre")),
+        Some(Meaning::LinePattern) => return Some(format!("{name} of the first hole")),
+        Some(code) if !keeps_places(code) => return None,
+        _ => {}
+    }
+    if here.has_code(Meaning::ScalingOn) {
+        return Some(format!("{name} of the centre of scaling"));
+    }
+    if here.cycle().is_some() {
+        if letter == meaning::LENGTH_AXIS {
+            let whence = if here.is_absolute() { "absolute" } else { "counted from the R level" };
+            return Some(format!("bottom of the hole, {whence}"));
+        }
+        return Some(format!("{name} of the hole: {}", place(here, letter, value)));
+    }
+    Some(place(here, letter, value))
+}
+
+/// True for one-shot codes under which an axis word is where the axis goes.
+fn keeps_places(code: Meaning) -> bool {
+    code.position_offset().is_some()
+        || matches!(
+            code,
+            Meaning::ExactStop
+                | Meaning::RapidWithoutCheck
+                | Meaning::ReferenceCheck
+                | Meaning::Skip
+                | Meaning::ReturnFromReference
+        )
+}
+
+/// Where an axis word leads.
+fn place(here: &Here, letter: u8, value: f64) -> String {
+    let name = char::from(letter);
+    let unit = if here.axis(letter).is_some_and(|(_, axis)| axis.rotary) { "deg" } else { "mm" };
+    if !here.is_absolute() {
+        let sign = if value < 0.0 { "" } else { "+" };
+        return format!("{name} by {sign}{} {unit}", coordinate(value));
+    }
+    let system = here.name_in(here.control.roles.work);
+    let mut text = format!("{name} to {} {unit} in {system}", coordinate(value));
+    let length = here.watched.after.length / 1e6;
+    if letter == meaning::LENGTH_AXIS && length != 0.0 {
+        text.push_str(&format!(", length offset {} mm added", coordinate(length)));
+    }
+    text
+}
+
+fn feed(here: &Here) -> String {
+    let cuts = here
+        .watched
+        .events
+        .iter()
+        .any(|event| matches!(event.kind, machine::EventKind::Feed { .. } | machine::EventKind::Arc { .. }));
+    if cuts { "feed of the cut along its path".to_owned() } else { "feed of the cuts from here on".to_owned() }
+}
+
+/// H and D: the memory cell, what it holds, whether anything uses it now.
+fn offset(here: &Here, which: usize, uses: fn(Meaning) -> Option<f64>, what: &str) -> String {
+    let held = here.watched.offsets[which];
+    let cell = held.map_or_else(
+        || "an offset".to_owned(),
+        |mm| format!("offset of {}", quantity(ReadAs::Length, mm, here.units())),
+    );
+    let roles = here.control.roles;
+    let acts = if which == 0 {
+        here.in_force(roles.length).and_then(uses).is_some_and(|factor| factor != 0.0)
+    } else {
+        let side =
+            matches!(here.in_force(roles.compensation), Some(Meaning::CompensationLeft | Meaning::CompensationRight));
+        side || cuts_circle(here.one_shot()) || here.one_shot().and_then(uses).is_some()
+    };
+    let how = if acts { "it acts here" } else { "chosen, and not in use here" };
+    format!("chooses the {cell} for {what}; {how}")
+}
+
+fn number(here: &Here, letter: u8, value: f64) -> Option<String> {
+    let count = plain(value, 0);
+    let shot = here.one_shot();
+    let macro_call = matches!(shot, Some(Meaning::MacroCall)) || here.has_code(Meaning::ModalMacroCall);
+    Some(match letter {
+        b'P' if here.has_m(MMeaning::SubprogramCall) || macro_call => format!("calls program O{count}"),
+        b'P' if here.has_m(MMeaning::SubprogramEnd) => format!("goes on at block N{count} of the calling program"),
+        b'P' if here.has_m(MMeaning::InterruptOn) => format!("an interrupt goes on at block N{count}"),
+        b'P' if here.has_code(Meaning::ScalingOn) => format!("factor of scaling: {}", plain(value / 1000.0, 3)),
+        b'P' if shot == Some(Meaning::WriteData) && here.has(b'Q') => format!("work system {count}"),
+        b'P' if shot == Some(Meaning::WriteData) => format!("number of the offset: {count}"),
+        b'P' if shot == Some(Meaning::OtherReferenceReturn) => format!("reference point {count}"),
+        b'Q' if here.has_m(MMeaning::SubprogramCall) => format!("begins at block N{count} of that program"),
+        b'Q' if matches!(here.cycle(), Some(Meaning::Peck | Meaning::HighSpeedPeck)) => "depth of each cut".to_owned(),
+        b'Q' if shifts(here) => "shift away from the wall, spindle oriented".to_owned(),
+        b'L' if here.has_m(MMeaning::SubprogramCall) || macro_call => format!("{count} times"),
+        b'L' if is_pattern(shot) => format!("{} holes", plain(value.abs(), 0)),
+        b'L' if here.cycle().is_some() && value == 0.0 => "the cycle's data are kept, no hole is made".to_owned(),
+        b'L' if here.cycle().is_some() => format!("the hole {count} times"),
+        _ => return None,
+    })
+}
+
+fn shifts(here: &Here) -> bool {
+    matches!(here.cycle(), Some(Meaning::FineBore | Meaning::BackBore))
+}
+
+fn cuts_circle(code: Option<Meaning>) -> bool {
+    matches!(code, Some(Meaning::CircleCutClockwise | Meaning::CircleCutCounterClockwise))
+}
+
+fn is_pattern(code: Option<Meaning>) -> bool {
+    matches!(code, Some(Meaning::BoltCircle | Meaning::ArcPattern | Meaning::LinePattern))
+}
+
+fn geometry(here: &Here, letter: u8, value: f64) -> Option<String> {
+    let shot = here.one_shot();
+    if is_pattern(shot) {
+        let line = shot == Some(Meaning::LinePattern);
+        return Some(match letter {
+            b'I' if line => "pitch from hole to hole".to_owned(),
+            b'I' => "radius of the circle of holes".to_owned(),
+            b'J' if line => "direction of the line, from +X counter-clockwise".to_owned(),
+            b'J' => "direction of the first hole, from +X counter-clockwise".to_owned(),
+            b'K' => "angle from hole to hole, counter-clockwise".to_owned(),
+            _ => "R level of the hole".to_owned(),
+        });
+    }
+    if cuts_circle(shot) {
+        return (letter == b'I').then(|| "radius of the hole".to_owned());
+    }
+    if shot == Some(Meaning::WriteData) {
+        let how = if here.is_absolute() { "takes the place of what the cell holds" } else { "is added to the cell" };
+        return (letter == b'R').then(|| format!("value of the offset: it {how}"));
+    }
+    if here.cycle().is_some() {
+        let whence = if here.is_absolute() { "absolute" } else { "counted from the initial level" };
+        return match letter {
+            b'R' => Some(format!("R level, to which the tool comes at rapid: {whence}")),
+            b'I' if shifts(here) => Some("shift away from the wall along X, spindle oriented".to_owned()),
+            b'J' if shifts(here) => Some("shift away from the wall along Y, spindle oriented".to_owned()),
+            _ => None,
+        };
+    }
+    let keeps = shot.is_none_or(|code| code.position_offset().is_some() || code == Meaning::ExactStop);
+    if !keeps || !here.motion().is_some_and(Meaning::is_arc) {
+        return None;
+    }
+    Some(match letter {
+        b'R' if value < 0.0 => "radius of the arc, minus for the arc of more than 180 deg".to_owned(),
+        b'R' => "radius of the arc of up to 180 deg".to_owned(),
+        _ if here.has(b'R') => "without effect: R gives the arc".to_owned(),
+        b'I' => "centre of the arc, counted from its start along X".to_owned(),
+        b'J' => "centre of the arc, counted from its start along Y".to_owned(),
+        _ => "centre of the arc, counted from its start along Z".to_owned(),
+    })
+}
