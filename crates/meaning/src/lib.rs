@@ -37,6 +37,7 @@ mod record;
 mod reference_point;
 mod repetition;
 mod scaling;
+mod search;
 mod setting;
 mod skip;
 mod state;

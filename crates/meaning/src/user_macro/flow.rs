@@ -5,18 +5,20 @@ use dialect::VariableMeaning;
 use syntax::{Cursor, Extent};
 
 use super::code::Run;
-use super::expression::{Reference, evaluate, unknown, variable_number};
+use super::evaluation::evaluate;
+use super::expression::{Reference, unknown, variable_number};
 use super::statement::{Destination, Statement};
 use super::store::{Line, Target};
 use super::system::{Source, Written};
 use super::trouble::Trouble;
 use crate::command::Command;
 use crate::data_setting::DataWrite;
-use crate::jump::{LoopsAround, OpenLoop, Search, Target as Goal};
+use crate::jump::{LoopsAround, OpenLoop, Target as Goal};
 use crate::operation::SetValue;
 use crate::program::Frame;
 use crate::reader::{Note, Read, Reader};
 use crate::record::StatementRead;
+use crate::search::Search;
 
 /// Statements that may be carried out ahead of a block that is being executed.
 pub(crate) const MOST_AHEAD: u32 = 4096;

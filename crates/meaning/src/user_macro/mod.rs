@@ -10,9 +10,11 @@
 
 pub(crate) mod call;
 mod code;
+mod evaluation;
 mod expression;
 pub(crate) mod flow;
 mod number;
+mod scanner;
 pub(crate) mod statement;
 pub(crate) mod store;
 mod system;

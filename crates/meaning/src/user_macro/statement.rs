@@ -4,7 +4,8 @@ use base::Condition;
 use syntax::{Extent, StatementKind};
 
 use super::code::Run;
-use super::expression::{Compiler, Reference, Scanner};
+use super::expression::{Compiler, Reference};
+use super::scanner::Scanner;
 use super::trouble::Trouble;
 
 /// A compiled statement.

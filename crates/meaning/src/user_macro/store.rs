@@ -4,7 +4,8 @@ use base::SourceId;
 use syntax::{Block, Cursor, Extent, Value, Word};
 
 use super::code::{Code, Run};
-use super::expression::{Compiler, Scanner};
+use super::expression::Compiler;
+use super::scanner::Scanner;
 use super::statement::{Statement, compile};
 use super::trouble::Trouble;
 use super::variables::Variables;

@@ -4,7 +4,7 @@ use base::{Condition, Decimal};
 use dialect::{DwellVariable, Meaning, PointRule};
 use syntax::Value;
 
-use super::expression::evaluate;
+use super::evaluation::evaluate;
 use super::number::{whole, with_point};
 use super::trouble::Trouble;
 use super::variables::BLANK;
