@@ -154,6 +154,12 @@ impl Reader {
             if let Some(needs) = self.search_on() {
                 return needs;
             }
+            if let Some(index) = self.kept_statement() {
+                match self.take_statement(index, command) {
+                    Some(read) => return read,
+                    None => continue,
+                }
+            }
             let Some(&(mut frame)) = self.calls.top() else { return Read::Ended };
             frame.cursor = self.supply.begin(frame.source, frame.cursor);
             if let Some(head) = self.asks_again.take() {
@@ -167,12 +173,6 @@ impl Reader {
             let line = match kept {
                 Some(index) => {
                     let Some(line) = self.store.line(index) else { return Read::Ended };
-                    if line.plain {
-                        match self.take_statement(index, &frame, command) {
-                            Some(read) => return read,
-                            None => continue,
-                        }
-                    }
                     self.store.load(line, &mut self.block);
                     Some(index)
                 }
@@ -225,6 +225,17 @@ impl Reader {
                 return read;
             }
         }
+    }
+
+    /// The statement that is next, if it is kept and stands alone in its block: no more of the frame is needed then.
+    #[inline]
+    fn kept_statement(&mut self) -> Option<u32> {
+        if self.store.is_empty() || self.asks_again.is_some() || self.ahead >= MOST_AHEAD {
+            return None;
+        }
+        let top = self.calls.frames.last().filter(|top| top.begun)?;
+        let index = self.store.find(top.source, top.cursor.offset)?;
+        self.store.line(index).is_some_and(|line| line.plain).then_some(index)
     }
 
     fn search_on(&mut self) -> Option<Read> {

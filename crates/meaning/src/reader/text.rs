@@ -73,7 +73,7 @@ impl Reader {
             if let Some(word) = self.block.words.iter().find(|word| !matches!(word.letter, b'N' | b'O')) {
                 return self.refuse_statement((Condition::MacroInBlock, word.extent, [0.0; 3]), frame, command);
             }
-            return self.take_statement(index, frame, command);
+            return self.take_statement(index, command);
         }
         if line.has_runs && !self.setting.fitting.options.user_macro {
             let extent = syntax::Extent { at: 0, len: self.block.len.min(u32::from(u16::MAX)) as u16 };

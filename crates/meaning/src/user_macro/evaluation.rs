@@ -157,9 +157,21 @@ fn apply(function: Function, x: f64) -> f64 {
     }
 }
 
+/// An angle less its whole turns, exactly.
+fn within_a_turn(degrees: f64) -> f64 {
+    /// Below this many degrees whole turns times 360 have no more bits than an `f64` holds, so that nothing is rounded.
+    const EXACT: f64 = 1e12;
+    if degrees.abs() >= EXACT {
+        return libm::fmod(degrees, 360.0);
+    }
+    let turn = degrees - (degrees / 360.0).trunc() * 360.0;
+    // The division may have been rounded up to the next whole turn.
+    if turn != 0.0 && (turn < 0.0) != (degrees < 0.0) { turn + 360.0_f64.copysign(degrees) } else { turn }
+}
+
 /// The sine of an angle in degrees, exact at every multiple of 30° that has an exact one.
 fn sine(degrees: f64) -> f64 {
-    let turn = libm::fmod(degrees, 360.0);
+    let turn = within_a_turn(degrees);
     let (sign, angle) = if turn < 0.0 { (-1.0, -turn) } else { (1.0, turn) };
     let (sign, angle) = if angle >= 180.0 { (-sign, angle - 180.0) } else { (sign, angle) };
     let angle = if angle > 90.0 { 180.0 - angle } else { angle };
@@ -190,4 +202,32 @@ fn digits(x: f64, from: u32, to: u32) -> f64 {
         rest /= u64::from(from);
     }
     value as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_turns_are_taken_off_exactly() {
+        let mut angle = 0.1_f64;
+        for _ in 0..2000 {
+            angle = angle * 1.017 + 0.37;
+            for degrees in [angle, -angle, (angle / 360.0).round() * 360.0, f64::from_bits(angle.to_bits() + 1)] {
+                assert_eq!(within_a_turn(degrees), libm::fmod(degrees, 360.0), "{degrees}");
+            }
+        }
+    }
+
+    #[test]
+    fn sines_of_round_angles_are_round() {
+        for (degrees, value) in
+            [(0.0, 0.0), (30.0, 0.5), (90.0, 1.0), (180.0, 0.0), (210.0, -0.5), (-30.0, -0.5), (750.0, 0.5)]
+        {
+            assert_eq!(sine(degrees), value, "{degrees}");
+        }
+        assert_eq!(digits(37.0, 16, 10), 25.0);
+        assert_eq!(digits(25.0, 10, 16), 37.0);
+        assert!(digits(10.0, 16, 10).is_nan());
+    }
 }

@@ -48,15 +48,15 @@ impl Reader {
     }
 
     /// Carries a kept statement out. `None` reads on.
-    pub(crate) fn take_statement(&mut self, index: u32, frame: &Frame, command: &mut Command) -> Option<Read> {
+    pub(crate) fn take_statement(&mut self, index: u32, command: &mut Command) -> Option<Read> {
         let line = *self.store.line(index)?;
-        let outcome = self.may_run(&line).and_then(|()| self.carry_out(index, &line, frame));
+        let outcome = self.may_run(&line).and_then(|()| self.carry_out(index, &line));
         match outcome {
             Ok(Next::Wait) => None,
             Ok(next) => {
                 self.answers.clear();
                 if self.setting.record.is_some() {
-                    self.record_statement(&line, &next, frame);
+                    self.record_statement(&line, &next);
                 }
                 if line.sequence > 0 {
                     self.state.sequence = line.sequence;
@@ -76,14 +76,20 @@ impl Reader {
             Err(Trouble::Needs(quantity)) => Some(Read::NeedValue(quantity)),
             Err(Trouble::Refused(condition, extent, values)) => {
                 self.store.load(&line, &mut self.block);
-                self.refuse_statement((condition, extent, values), frame, command)
+                let frame = self.frame();
+                self.refuse_statement((condition, extent, values), &frame, command)
             }
         }
     }
 
+    /// The program in execution.
+    fn frame(&self) -> Frame {
+        self.calls.top().copied().unwrap_or_default()
+    }
+
     /// Keeps what a statement did, for whoever explains the program.
-    fn record_statement(&mut self, line: &Line, next: &Next, frame: &Frame) {
-        let place = self.place_of(line, frame);
+    fn record_statement(&mut self, line: &Line, next: &Next) {
+        let place = self.place_of(line);
         let wrote = self.notes.back().filter(|note| note.place == place).map(|note| note.value);
         let to = if let Next::At(cursor) = next { cursor } else { &line.next };
         let (state, goes_to) = (self.state, to.line);
@@ -109,10 +115,11 @@ impl Reader {
         if doubtful && self.goes_on { None } else { read }
     }
 
-    fn place_of(&self, line: &Line, frame: &Frame) -> Place {
+    fn place_of(&self, line: &Line) -> Place {
+        let top = self.calls.top();
         Place {
-            program: self.calls.top().map_or(frame.program, |top| top.program),
-            source: frame.source,
+            program: top.map_or_else(Default::default, |top| top.program),
+            source: top.map_or_else(Default::default, |top| top.source),
             line: line.start.line,
             line_start: line.start.line_start,
             block: base::Span { start: line.start.offset, len: line.len },
@@ -128,18 +135,18 @@ impl Reader {
         Ok(())
     }
 
-    fn carry_out(&mut self, index: u32, line: &Line, frame: &Frame) -> Result<Next, Trouble> {
+    fn carry_out(&mut self, index: u32, line: &Line) -> Result<Next, Trouble> {
         let Some(statement) = line.statement else { return Ok(Next::Following) };
         let next = match statement {
             Statement::Assign { target, place, value } => {
-                self.assign(line, frame, target, place, value)?;
+                self.assign(line, target, place, value)?;
                 Next::Following
             }
             Statement::Goto { condition, to, place } => match condition {
                 Some(condition) if !self.holds(condition)? => Next::Following,
-                _ => self.jump(index, line, frame, to, place)?,
+                _ => self.jump(index, line, to, place)?,
             },
-            Statement::Loop { condition, number } => self.enter_loop(index, line, frame, condition, number)?,
+            Statement::Loop { condition, number } => self.enter_loop(index, line, condition, number)?,
             Statement::End { number } => self.end_loop(line, number)?,
         };
         if !matches!(next, Next::Wait) {
@@ -167,14 +174,7 @@ impl Reader {
         Ok(evaluate(&self.store.code, condition, &self.source())? != 0.0)
     }
 
-    fn assign(
-        &mut self,
-        line: &Line,
-        frame: &Frame,
-        target: Reference,
-        place: Extent,
-        value: Run,
-    ) -> Result<(), Trouble> {
+    fn assign(&mut self, line: &Line, target: Reference, place: Extent, value: Run) -> Result<(), Trouble> {
         let source = self.source();
         let level = source.level;
         let result = evaluate(&self.store.code, value, &source)?;
@@ -202,7 +202,7 @@ impl Reader {
             Reference::Computed(_) | Reference::System(_) => self.assign_by_number(line, number, result, place)?,
         };
         if self.tells_variables {
-            let place = self.place_of(line, frame);
+            let place = self.place_of(line);
             self.notes.push_back(Note { before: self.blocks, place, value: told });
         }
         self.ahead += 1;
@@ -268,14 +268,7 @@ impl Reader {
         Ok(SetValue::Variable { number, value })
     }
 
-    fn jump(
-        &mut self,
-        index: u32,
-        line: &Line,
-        frame: &Frame,
-        to: Destination,
-        place: Extent,
-    ) -> Result<Next, Trouble> {
+    fn jump(&mut self, index: u32, line: &Line, to: Destination, place: Extent) -> Result<Next, Trouble> {
         let (number, computed) = match to {
             Destination::Number(number) => (number, false),
             Destination::Computed(run) => {
@@ -286,6 +279,7 @@ impl Reader {
         let target = match line.target {
             Some(target) if !computed => target,
             _ => {
+                let frame = self.frame();
                 let goal = Goal::Sequence {
                     source: frame.source,
                     program: frame.program,
@@ -335,21 +329,14 @@ impl Reader {
         self.search = Some(Search::new(goal, main, &self.calls.index, around));
     }
 
-    fn enter_loop(
-        &mut self,
-        index: u32,
-        line: &Line,
-        frame: &Frame,
-        condition: Option<Run>,
-        number: u8,
-    ) -> Result<Next, Trouble> {
+    fn enter_loop(&mut self, index: u32, line: &Line, condition: Option<Run>, number: u8) -> Result<Next, Trouble> {
         let depth = self.calls.frames.len();
         let head = Cursor { skipping: false, ..line.start };
         let open = self.calls.loops.last().is_some_and(|open| open.depth == depth && open.head.offset == head.offset);
         let after = match line.target {
             Some(target) => target.cursor,
             None => {
-                let goal = Goal::LoopEnd { source: frame.source, from: line.next, number };
+                let goal = Goal::LoopEnd { source: self.frame().source, from: line.next, number };
                 let found = match self.calls.lookup(&goal) {
                     None => {
                         self.look_for(goal);

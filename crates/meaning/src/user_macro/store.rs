@@ -34,6 +34,8 @@ pub(crate) struct Line {
     pub sequence: u32,
     words: (u32, u32),
     pub statement: Option<Statement>,
+    /// The same as it was recognised.
+    recognised: Option<syntax::Statement>,
     pub extent: Extent,
     /// The first comment behind the statement.
     pub comment: Extent,
@@ -145,6 +147,7 @@ impl Store {
             sequence: sequence_of(block),
             words: (before.1 as u32, self.words.len() as u32),
             statement,
+            recognised: block.statement,
             extent,
             comment: block.comments.iter().copied().find(|comment| comment.at > extent.at).unwrap_or_default(),
             plain: statement.is_some() && block.skips.is_empty() && block.words.iter().all(|word| word.letter == b'N'),
@@ -215,7 +218,7 @@ impl Store {
         block.words.extend_from_slice(self.words.get(line.words.0 as usize..line.words.1 as usize).unwrap_or_default());
         block.skips.clear();
         block.comments.clear();
-        block.statement = None;
+        block.statement = line.recognised;
         block.faults.clear();
     }
 

@@ -18,7 +18,6 @@ impl Reader {
         if !line.has_runs {
             return Ok(());
         }
-        let dwells = self.has_g(&[Meaning::Dwell]);
         let (mut kept, words) = (0, self.block.words.len());
         for index in 0..words {
             let mut word = self.block.words[index];
@@ -34,7 +33,7 @@ impl Reader {
                     behind.for_each(|skip| skip.first_word -= 1);
                     continue;
                 }
-                word.value = Value::Number(self.number_for(word.letter, value, dwells));
+                word.value = Value::Number(self.number_for(word.letter, value));
             }
             self.block.words[kept] = word;
             self.word_values.push(value);
@@ -45,11 +44,11 @@ impl Reader {
     }
 
     /// A value as the number of a word: rounded to what its address counts, as if written with a point where one may be.
-    fn number_for(&self, letter: u8, value: f64, dwells: bool) -> Decimal {
+    fn number_for(&self, letter: u8, value: f64) -> Decimal {
         let seconds = self.setting.fitting.policies.dwell_variable == DwellVariable::Seconds;
         match self.setting.control.address(letter).map(|address| address.point) {
             Some(PointRule::No) => whole(value),
-            Some(PointRule::Dwell) if !(dwells && seconds) => whole(value),
+            Some(PointRule::Dwell) if !(seconds && self.has_g(&[Meaning::Dwell])) => whole(value),
             _ => with_point(value),
         }
     }
