@@ -117,7 +117,8 @@ impl Reading<'_> {
                 self.push_code(CodeLine::M, code, digits, after, word)?;
             }
         }
-        Ok(flow)
+        // The program's end is stronger than a call or return in its block.
+        Ok(if matches!(self.command.finish, Finish::End(_)) { Flow::Next } else { flow })
     }
 
     /// A code whose meaning is the machine builder's.

@@ -41,6 +41,19 @@ impl Reading<'_> {
         Ok(())
     }
 
+    /// What 1 of an F without a point is worth, in mm or inches a minute or a turn.
+    pub fn least_feed(&self) -> f64 {
+        let [metric, inch, _] = self.setting.control.increments;
+        let coarse = self.words.coarse as f64;
+        let tenths = self.setting.fitting.policies.inch_feed_integer == InchFeedInteger::Tenth;
+        match (self.is_per_revolution(), self.units) {
+            (true, UnitSystem::Metric) => metric as f64 * coarse / 1e6,
+            (true, UnitSystem::Inch) => inch as f64 * coarse / NM_PER_INCH as f64,
+            (false, UnitSystem::Inch) if tenths => 0.1,
+            (false, _) => 1.0,
+        }
+    }
+
     /// What a one-digit F calls: a feed from the parameters, or for F0 one without bounds, which is the rapid rate.
     fn stored_feed(&self, digit: u64) -> Result<f64, Alarm> {
         if digit == 0 {

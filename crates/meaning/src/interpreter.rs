@@ -390,6 +390,9 @@ impl Interpreter {
             (BarrierKind::NeedProgram { .. }, _) => self.reader.brought(None),
             (BarrierKind::NeedValue(quantity), answer) => {
                 let value = if let Answer::Value(value) = answer { value } else { 0.0 };
+                if quantity == crate::pull::Quantity::Clock {
+                    self.reader.repetition.forget();
+                }
                 self.reader.answers.push((quantity, value));
             }
             (BarrierKind::SkipPosition, answer) => self.measured(answer),

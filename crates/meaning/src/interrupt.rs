@@ -58,8 +58,7 @@ impl Reader {
         frame.cursor = found.cursor;
         frame.begun = found.cursor.offset > frame.head.offset;
         self.calls.frames.truncate(depth);
-        let at = found.cursor.offset;
-        self.calls.loops.retain(|open| open.depth < depth || (open.head.offset <= at && at < open.after.offset));
+        self.calls.leave_loops(depth, found.cursor.offset);
         self.drop_what_is_sought();
         true
     }

@@ -183,6 +183,11 @@ impl Calls {
         self.top().map_or(0, |frame| usize::from(frame.level))
     }
 
+    /// Closes the loops on this level of calls and above that a jump to the block at `at` has left.
+    pub fn leave_loops(&mut self, depth: usize, at: u64) {
+        self.loops.retain(|open| open.depth < depth || (open.head.offset <= at && at < open.after.offset));
+    }
+
     pub fn top(&self) -> Option<&Frame> {
         self.frames.last()
     }

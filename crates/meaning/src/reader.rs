@@ -257,6 +257,7 @@ impl Reader {
         if let Some(frame) = self.calls.frames.last_mut() {
             frame.cursor = to;
         }
+        self.calls.leave_loops(self.calls.frames.len(), to.offset);
     }
 
     fn begins_program(&self) -> bool {

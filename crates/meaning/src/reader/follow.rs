@@ -40,17 +40,32 @@ impl Reader {
             Flow::ModalCall(found, repeats) => {
                 self.modal = Some(ModalCall { found, repeats, arguments: self.arguments });
             }
-            Flow::Return(found) => self.leave(found),
+            Flow::Return(found) => {
+                self.leave(found);
+                if let Some(found) = found
+                    && self.comes_again(found.cursor)
+                {
+                    self.asks_again = Some(found.cursor);
+                }
+            }
             Flow::Again => self.run_again(command),
-            // A round without a move, dwell or stop is not a program that runs again: the loop limit ends it.
-            Flow::Jump(found) if self.jumps == 1 && self.comes_again(found.cursor) => self.run_again(command),
-            Flow::Jump(found) => self.advance(found.cursor),
+            Flow::Jump(found) => {
+                if self.comes_again(found.cursor) {
+                    command.finish = Finish::End(EndKind::M99);
+                    command.stops_reading = true;
+                }
+                self.advance(found.cursor);
+            }
         }
         Ok(())
     }
 
+    /// A jump of M99 has come round to what it was. A round without a move, dwell or stop is not a program that runs
+    /// again: the loop limit ends it.
     pub(super) fn comes_again(&mut self, cursor: Cursor) -> bool {
-        self.repetition.comes_again(cursor, &self.next, &self.setting.memory.variables)
+        let moved = std::mem::take(&mut self.moved);
+        let variables = &self.setting.memory.variables;
+        moved && self.repetition.comes_again(cursor, &self.calls.frames, &self.next, variables)
     }
 
     pub(super) fn enter(&mut self, found: Found, entry: Cursor, repeats: u32) {

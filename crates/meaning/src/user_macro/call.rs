@@ -123,6 +123,7 @@ impl Reading<'_> {
             }
             Some(AddressKind::LinearAxis | AddressKind::Length) => metric as f64 * coarse / 1e6,
             Some(AddressKind::RotaryAxis) => rotary as f64 / 1e6,
+            Some(AddressKind::Feed) => self.least_feed(),
             _ => 1.0,
         };
         // Dividing keeps what is written exact: 10 thousandths are 0.01, not 0.010000000000000002.

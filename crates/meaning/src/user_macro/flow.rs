@@ -309,9 +309,8 @@ impl Reader {
             let values = [f64::from(number), target.cursor.line as f64, 0.0];
             return Err(Trouble::Refused(Condition::MacroIntoLoop, place, values));
         }
-        let depth = self.calls.frames.len();
         let at = target.cursor.offset;
-        self.calls.loops.retain(|open| open.depth < depth || (open.head.offset <= at && at < open.after.offset));
+        self.calls.leave_loops(self.calls.frames.len(), at);
         if at <= line.start.offset && self.turns_for_ever(target.cursor) {
             return Ok(Next::Wait);
         }
@@ -395,7 +394,8 @@ impl Reader {
     /// A loop that has come round to the same state with the same variables would go on for ever: the program asks
     /// whether it shall.
     fn turns_for_ever(&mut self, head: Cursor) -> bool {
-        if !self.moved || !self.repetition.comes_again(head, &self.state, &self.setting.memory.variables) {
+        let (calls, variables) = (&self.calls.frames, &self.setting.memory.variables);
+        if !self.moved || !self.repetition.comes_again(head, calls, &self.state, variables) {
             self.moved = false;
             return false;
         }

@@ -1,0 +1,11 @@
+DO 1
+M98 P2
+END 1
+X9.
+N50 WHILE [#1 LT 2] DO 1
+#1=#1+1
+X#1
+END 1
+M30
+O2
+M99 P50
