@@ -6,10 +6,20 @@ use crate::command::{Command, Finish};
 use crate::jump::Found;
 use crate::operation::EndKind;
 use crate::program::{CalledBy, Frame};
+use crate::repetition::Moment;
 use crate::user_macro::call::{Arguments, ModalCall};
 use base::{Alarm, Condition};
 use dialect::Meaning;
 use syntax::Cursor;
+
+/// What a jump is part of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum After {
+    /// A block, whose state is in the making.
+    Block,
+    /// A macro statement.
+    Statement,
+}
 
 impl Reader {
     /// Carries the program to where the block sends it.
@@ -40,17 +50,42 @@ impl Reader {
             Flow::ModalCall(found, repeats) => {
                 self.modal = Some(ModalCall { found, repeats, arguments: self.arguments });
             }
-            Flow::Return(found) => self.leave(found),
+            Flow::Return(found) => {
+                self.leave(found);
+                if let Some(found) = found
+                    && self.comes_again(found.cursor, After::Block)
+                {
+                    self.asks_again = Some(found.cursor);
+                }
+            }
             Flow::Again => self.run_again(command),
-            // A round without a move, dwell or stop is not a program that runs again: the loop limit ends it.
-            Flow::Jump(found) if self.jumps == 1 && self.comes_again(found.cursor) => self.run_again(command),
+            Flow::Jump(found) if self.comes_again(found.cursor, After::Block) => self.run_again(command),
             Flow::Jump(found) => self.advance(found.cursor),
         }
         Ok(())
     }
 
-    pub(super) fn comes_again(&mut self, cursor: Cursor) -> bool {
-        self.repetition.comes_again(cursor, &self.next, &self.setting.memory.variables)
+    /// Whether a jump leads to where the program has been before with nothing changed since, and so for ever round.
+    ///
+    /// A round without a move, dwell or stop is another matter: the loop limit ends it.
+    pub(crate) fn comes_again(&mut self, cursor: Cursor, after: After) -> bool {
+        if !self.moved {
+            return false;
+        }
+        self.moved = false;
+        let state = match after {
+            After::Block => &self.next,
+            After::Statement => &self.state,
+        };
+        self.repetition.comes_again(&Moment {
+            cursor,
+            state,
+            variables: &self.setting.memory.variables,
+            frames: &self.calls.frames,
+            loops: &self.calls.loops,
+            modal: self.modal.as_ref(),
+            called_with: &self.called_with,
+        })
     }
 
     pub(super) fn enter(&mut self, found: Found, entry: Cursor, repeats: u32) {
