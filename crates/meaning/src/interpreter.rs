@@ -11,7 +11,7 @@ use crate::command::{Body, Command, Finish};
 use crate::expand::{Expansion, Surroundings};
 use crate::facts::{MachineFacts, Memory, Switches};
 use crate::operation::{Act, Close, EndKind, Operation};
-use crate::pull::{Answer, Barrier, BarrierKind, Pull, StaleBarrier};
+use crate::pull::{Answer, Barrier, BarrierKind, Pull, Quantity, StaleBarrier};
 use crate::queue::Queue;
 use crate::reader::{Read, Reader, empty_command};
 use crate::record::{StatementRuns, WordsRead};
@@ -390,8 +390,8 @@ impl Interpreter {
             (BarrierKind::NeedProgram { .. }, _) => self.reader.brought(None),
             (BarrierKind::NeedValue(quantity), answer) => {
                 let value = if let Answer::Value(value) = answer { value } else { 0.0 };
-                if quantity == crate::pull::Quantity::Clock {
-                    self.reader.repetition.forget();
+                if quantity == Quantity::Clock {
+                    self.reader.repetition.clock_was_read();
                 }
                 self.reader.answers.push((quantity, value));
             }

@@ -6,6 +6,8 @@ mod rows;
 mod selection;
 mod text;
 
+pub(crate) use follow::After;
+
 use std::collections::VecDeque;
 
 use base::{AXES, Alarm, AxisSet, Condition, Place, SourceId, Span};

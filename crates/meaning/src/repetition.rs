@@ -1,74 +1,132 @@
-//! A main program that jumps about for ever, found out: it comes to the same block in the same state once more.
+//! A program that jumps about for ever, found out: it comes to the same block in the same state once more.
+//!
+//! The state is all of it: a loop of a program that is called again and again begins anew each time, and ends.
 
 use syntax::Cursor;
 
 use crate::coordinate::clear;
+use crate::jump::OpenLoop;
 use crate::program::Frame;
 use crate::state::State;
 use crate::user_macro::Variables;
+use crate::user_macro::call::{Arguments, ModalCall};
 
-/// One earlier jump, kept for 1, 2, 4, 8 … jumps (Brent's cycle search), so that one state is enough.
+/// What decides where a program goes on after a jump.
+#[derive(Clone, Copy)]
+pub(crate) struct Moment<'m> {
+    /// Where the jump leads.
+    pub cursor: Cursor,
+    pub state: &'m State,
+    pub variables: &'m Variables,
+    /// The levels of calls, with how often each is still to run.
+    pub frames: &'m [Frame],
+    pub loops: &'m [OpenLoop],
+    pub modal: Option<&'m ModalCall>,
+    /// The arguments with which each level begins again.
+    pub called_with: &'m [Arguments],
+}
+
+#[derive(Clone, Debug)]
+struct Seen {
+    cursor: Cursor,
+    state: State,
+    variables: Variables,
+    frames: Vec<Frame>,
+    loops: Vec<OpenLoop>,
+    modal: Option<ModalCall>,
+    called_with: Vec<Arguments>,
+}
+
+impl Seen {
+    fn of(moment: &Moment) -> Seen {
+        Seen {
+            cursor: moment.cursor,
+            state: settled(moment.state),
+            variables: moment.variables.clone(),
+            frames: moment.frames.to_vec(),
+            loops: moment.loops.to_vec(),
+            modal: moment.modal.copied(),
+            called_with: moment.called_with.to_vec(),
+        }
+    }
+
+    fn take(&mut self, moment: &Moment) {
+        self.cursor = moment.cursor;
+        self.state = settled(moment.state);
+        self.variables.copy_from(moment.variables);
+        moment.frames.clone_into(&mut self.frames);
+        moment.loops.clone_into(&mut self.loops);
+        self.modal = moment.modal.copied();
+        moment.called_with.clone_into(&mut self.called_with);
+    }
+
+    fn is(&self, moment: &Moment) -> bool {
+        self.cursor == moment.cursor
+            && self.frames == moment.frames
+            && self.loops == moment.loops
+            && self.state == settled(moment.state)
+            && self.variables == *moment.variables
+            && same_modal(self.modal.as_ref(), moment.modal)
+            && self.called_with.len() == moment.called_with.len()
+            && self.called_with.iter().zip(moment.called_with).all(|(one, other)| same_arguments(one, other))
+    }
+}
+
+fn same_modal(one: Option<&ModalCall>, other: Option<&ModalCall>) -> bool {
+    match (one, other) {
+        (None, None) => true,
+        (Some(one), Some(other)) => {
+            one.found == other.found && one.repeats == other.repeats && same_arguments(&one.arguments, &other.arguments)
+        }
+        _ => false,
+    }
+}
+
+/// A blank is no number that equals itself.
+fn same_arguments(one: &Arguments, other: &Arguments) -> bool {
+    one.iter().zip(other).all(|(one, other)| one.to_bits() == other.to_bits())
+}
+
+/// One earlier jump, kept for 1, 2, 4, 8 … jumps (Brent's cycle search), so that one moment is enough.
 #[derive(Clone, Debug)]
 pub(crate) struct Repetition {
-    seen: Option<(Cursor, State, Variables)>,
-    /// The levels of calls at that jump.
-    calls: Vec<Frame>,
+    seen: Option<Seen>,
     jumps: u64,
     kept_for: u64,
+    /// The clock was read since: it goes on by itself, and may end the loop.
+    timed: bool,
 }
 
 impl Default for Repetition {
     fn default() -> Self {
-        Repetition { seen: None, calls: Vec::new(), jumps: 0, kept_for: 1 }
+        Repetition { seen: None, jumps: 0, kept_for: 1, timed: false }
     }
 }
 
 impl Repetition {
-    /// The program has read what changes by itself, as a clock does: what was seen before need not come again.
-    pub fn forget(&mut self) {
-        self.calls.clear();
-        (self.jumps, self.kept_for) = (0, 1);
+    pub fn clock_was_read(&mut self) {
+        self.timed = true;
     }
 
-    /// True if the program has jumped to this block in this state before: it would go on for ever. `calls` are the
-    /// programs on the levels of calls: a subprogram that runs once more from elsewhere, or again by its L, is another.
+    /// True if the program has made this jump at such a moment before: it would go on for ever.
     ///
     /// Where an axis is unknown (only while checking on) its place makes no difference.
-    pub fn comes_again(&mut self, cursor: Cursor, calls: &[Frame], state: &State, variables: &Variables) -> bool {
-        if let Some((place, earlier, before)) = &self.seen
-            && *place == cursor
-            && same_calls(&self.calls, calls)
-            && *earlier == settled(state)
-            && before == variables
-        {
+    pub fn comes_again(&mut self, moment: &Moment) -> bool {
+        if !self.timed && self.seen.as_ref().is_some_and(|seen| seen.is(moment)) {
             return true;
         }
         self.jumps += 1;
         if self.jumps >= self.kept_for {
             match &mut self.seen {
-                Some((place, earlier, before)) => {
-                    *place = cursor;
-                    *earlier = settled(state);
-                    before.copy_from(variables);
-                }
-                None => self.seen = Some((cursor, settled(state), variables.clone())),
+                Some(seen) => seen.take(moment),
+                None => self.seen = Some(Seen::of(moment)),
             }
-            self.calls.clear();
-            self.calls.extend_from_slice(calls);
             self.jumps = 0;
             self.kept_for *= 2;
+            self.timed = false;
         }
         false
     }
-}
-
-/// Whether both lead back the same way. Where the innermost program stands is told by the block it jumps to.
-fn same_calls(earlier: &[Frame], now: &[Frame]) -> bool {
-    let same = |(earlier, now): (&Frame, &Frame)| earlier.source == now.source && earlier.repeats == now.repeats;
-    let callers = now.len().saturating_sub(1);
-    earlier.len() == now.len()
-        && earlier.iter().zip(now).all(same)
-        && earlier.iter().zip(now).take(callers).all(|(earlier, now)| earlier.cursor == now.cursor)
 }
 
 /// A state without what is not known in it.

@@ -134,7 +134,13 @@ impl<L: Shelf> Operator<L> {
             Action::EmergencyStop => session.press_emergency_stop(),
             Action::Release => session.release_emergency_stop(),
             Action::Load(file, name) => self.load(file, name.as_deref())?,
-            Action::Run(until) => self.run(until, tell)?,
+            Action::Run(until) => {
+                self.session.begin_rounds();
+                self.run(until, tell)?;
+                if self.session.goes_round() {
+                    return Ok(Err("the program goes round for ever; what was waited for does not come".to_owned()));
+                }
+            }
             Action::Select(name) => return Ok(self.select(name)),
             Action::Mode(name) => return Ok(self.turn_mode(name)),
             Action::Mdi(blocks) => return Ok(self.type_blocks(blocks)),

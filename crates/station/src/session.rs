@@ -46,6 +46,9 @@ pub enum Step {
     Failed(LibraryError),
 }
 
+/// Rounds of a program that never ends by itself which one action of the operator lasts.
+const MOST_ROUNDS: u32 = 10_000;
+
 /// A session: one control with its machine and memory.
 pub struct Session<L> {
     motion: Motion,
@@ -65,6 +68,8 @@ pub struct Session<L> {
     inputs: Inputs,
     after_alarm: AfterAlarm,
     repeats_main: bool,
+    /// Rounds of a program that goes round for ever, since the operator last let it run.
+    pub(super) rounds: u32,
     events: VecDeque<Event>,
     /// Codes that begin a block, held until it is sure that the block is not refused.
     codes: Vec<Shaped>,
@@ -128,6 +133,7 @@ impl<L: Library> Session<L> {
             inputs,
             after_alarm: AfterAlarm::Stand,
             repeats_main: false,
+            rounds: 0,
             events: VecDeque::with_capacity(32),
             codes: Vec::with_capacity(16),
             bytes: Vec::new(),
@@ -159,7 +165,17 @@ impl<L: Library> Session<L> {
         }
     }
 
-    /// M99 in the main program runs it again (as the control does) or ends it.
+    /// The operator lets the program run: its rounds are counted anew.
+    pub fn begin_rounds(&mut self) {
+        self.rounds = 0;
+    }
+
+    /// True if the program has come round so often that it never ends by itself: it waits for the operator.
+    pub fn goes_round(&self) -> bool {
+        self.rounds > MOST_ROUNDS
+    }
+
+    /// M99 in the main program runs it again, and a loop without end goes on (as the control does), or the run ends.
     pub fn set_repeats_main(&mut self, repeats: bool) {
         self.repeats_main = repeats;
     }
@@ -349,7 +365,7 @@ impl<L: Library> Session<L> {
             if self.stopped {
                 return Step::Stopped;
             }
-            if self.ended || self.alarm.is_some() {
+            if self.ended || self.alarm.is_some() || self.goes_round() {
                 return Step::Idle;
             }
             if self.pull() {

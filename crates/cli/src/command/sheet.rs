@@ -11,6 +11,7 @@ use crate::output::{Output, colour_err, paint_out, say};
 use crate::show_alarm::show_alarm;
 
 pub fn sheet(arguments: &SheetArguments) -> Result<bool, Failure> {
+    let format = format(arguments)?;
     let mut session = open(&arguments.file, &arguments.setting)?;
     let mut sheet = Sheet::run(&mut session, |texts, source, offset, len| texts.excerpt(source, offset, len))
         .map_err(Failure::call)?;
@@ -22,11 +23,6 @@ pub fn sheet(arguments: &SheetArguments) -> Result<bool, Failure> {
         let name = diagnostic.alarm.map_or_else(String::new, |alarm| alarm.name);
         sheet.alarm_text = Some(format!("line {}: alarm {name}, {}", excerpt.line, diagnostic.message));
     }
-    let format = arguments.format.unwrap_or(match arguments.output.as_deref().and_then(|path| path.extension()) {
-        Some(ending) if ending.eq_ignore_ascii_case("html") || ending.eq_ignore_ascii_case("htm") => SheetFormat::Html,
-        Some(ending) if ending.eq_ignore_ascii_case("json") => SheetFormat::Json,
-        _ => SheetFormat::Text,
-    });
     let mut paint = paint_out();
     paint.colour &= arguments.output.is_none();
     let text = match format {
@@ -45,4 +41,22 @@ pub fn sheet(arguments: &SheetArguments) -> Result<bool, Failure> {
         }
     }
     Ok(sheet.alarm.is_none())
+}
+
+/// The format that was asked for, or the one that the ending of the file says.
+fn format(arguments: &SheetArguments) -> Result<SheetFormat, Failure> {
+    if let Some(format) = arguments.format {
+        return Ok(format);
+    }
+    let Some(output) = &arguments.output else { return Ok(SheetFormat::Text) };
+    let ending = output.extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase());
+    match ending.as_str() {
+        "html" | "htm" => Ok(SheetFormat::Html),
+        "json" => Ok(SheetFormat::Json),
+        "txt" | "" => Ok(SheetFormat::Text),
+        _ => Err(Failure::call(format!(
+            "{}: end the sheet's name with .txt, .json or .html, or say which it is with --format",
+            output.display()
+        ))),
+    }
 }

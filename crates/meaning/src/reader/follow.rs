@@ -6,10 +6,20 @@ use crate::command::{Command, Finish};
 use crate::jump::Found;
 use crate::operation::EndKind;
 use crate::program::{CalledBy, Frame};
+use crate::repetition::Moment;
 use crate::user_macro::call::{Arguments, ModalCall};
 use base::{Alarm, Condition};
 use dialect::Meaning;
 use syntax::Cursor;
+
+/// What a jump is part of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum After {
+    /// A block, whose state is in the making.
+    Block,
+    /// A macro statement.
+    Statement,
+}
 
 impl Reader {
     /// Carries the program to where the block sends it.
@@ -43,14 +53,14 @@ impl Reader {
             Flow::Return(found) => {
                 self.leave(found);
                 if let Some(found) = found
-                    && self.comes_again(found.cursor)
+                    && self.comes_again(found.cursor, After::Block)
                 {
                     self.asks_again = Some(found.cursor);
                 }
             }
             Flow::Again => self.run_again(command),
             Flow::Jump(found) => {
-                if self.comes_again(found.cursor) {
+                if self.comes_again(found.cursor, After::Block) {
                     command.finish = Finish::End(EndKind::M99);
                     command.stops_reading = true;
                 }
@@ -60,12 +70,27 @@ impl Reader {
         Ok(())
     }
 
-    /// A jump of M99 has come round to what it was. A round without a move, dwell or stop is not a program that runs
-    /// again: the loop limit ends it.
-    pub(super) fn comes_again(&mut self, cursor: Cursor) -> bool {
-        let moved = std::mem::take(&mut self.moved);
-        let variables = &self.setting.memory.variables;
-        moved && self.repetition.comes_again(cursor, &self.calls.frames, &self.next, variables)
+    /// Whether a jump leads to where the program has been before with nothing changed since, and so for ever round.
+    ///
+    /// A round without a move, dwell or stop is another matter: the loop limit ends it.
+    pub(crate) fn comes_again(&mut self, cursor: Cursor, after: After) -> bool {
+        if !self.moved {
+            return false;
+        }
+        self.moved = false;
+        let state = match after {
+            After::Block => &self.next,
+            After::Statement => &self.state,
+        };
+        self.repetition.comes_again(&Moment {
+            cursor,
+            state,
+            variables: &self.setting.memory.variables,
+            frames: &self.calls.frames,
+            loops: &self.calls.loops,
+            modal: self.modal.as_ref(),
+            called_with: &self.called_with,
+        })
     }
 
     pub(super) fn enter(&mut self, found: Found, entry: Cursor, repeats: u32) {

@@ -16,6 +16,7 @@ use crate::data_setting::DataWrite;
 use crate::jump::{LoopsAround, OpenLoop, Target as Goal};
 use crate::operation::SetValue;
 use crate::program::Frame;
+use crate::reader::After;
 use crate::reader::{Note, Read, Reader};
 use crate::record::StatementRead;
 use crate::search::Search;
@@ -394,13 +395,11 @@ impl Reader {
     /// A loop that has come round to the same state with the same variables would go on for ever: the program asks
     /// whether it shall.
     fn turns_for_ever(&mut self, head: Cursor) -> bool {
-        let (calls, variables) = (&self.calls.frames, &self.setting.memory.variables);
-        if !self.moved || !self.repetition.comes_again(head, calls, &self.state, variables) {
-            self.moved = false;
-            return false;
+        let for_ever = self.comes_again(head, After::Statement);
+        if for_ever {
+            self.asks_again = Some(head);
         }
-        self.asks_again = Some(head);
-        true
+        for_ever
     }
 }
 

@@ -1,5 +1,6 @@
 //! The set-up sheet in lines of text.
 
+use meaning::EndKind;
 use std::fmt::Write as _;
 
 use super::tool::{Operation, Range};
@@ -60,6 +61,8 @@ pub(super) fn operation(operation: &Operation) -> String {
 pub(super) fn ending(sheet: &Sheet) -> String {
     match (sheet.end, &sheet.alarm) {
         (_, Some(_)) => "STOPPED BY AN ALARM: this sheet is not complete".to_owned(),
+        (Some(EndKind::Text), None) => "runs to the end of the text, without M02 or M30".to_owned(),
+        (Some(EndKind::Loop), None) => "never ends: it goes round for ever with nothing changed".to_owned(),
         (Some(end), None) => format!("runs to {}", end_name(end)),
         (None, None) => "does not end".to_owned(),
     }

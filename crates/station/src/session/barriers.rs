@@ -55,6 +55,11 @@ impl<L: Library> Session<L> {
                     self.motion.resume(barrier.id, answer)
                 }
                 BarrierKind::RunAgain => {
+                    self.rounds += u32::from(self.repeats_main);
+                    if self.goes_round() {
+                        // The question stays open until the operator lets the program run on.
+                        return false;
+                    }
                     let answer = if self.repeats_main { Answer::Continue } else { Answer::Stop };
                     self.motion.resume(barrier.id, answer)
                 }
