@@ -43,6 +43,7 @@ pub enum Command {
     Plot(PlotArguments),
     /// Read images of punched tape (EIA RS-244, ISO 840) to text, and punch text
     #[command(subcommand)]
+    #[command(after_help = "Example:\n  cyclestart tape punch part.nc --code eia -o part.eia --draw")]
     Tape(TapeCommand),
     /// Say what every word of a block does under this control, and what the block changes
     #[command(

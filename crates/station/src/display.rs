@@ -120,6 +120,8 @@ impl<L: Library> Operator<L> {
             Some("cycle-start")
         } else if session.waits_for_feed() {
             Some("feed-override")
+        } else if session.goes_round() {
+            Some("the end of an endless program")
         } else {
             None
         };

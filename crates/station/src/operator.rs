@@ -137,9 +137,6 @@ impl<L: Shelf> Operator<L> {
             Action::Run(until) => {
                 self.session.begin_rounds();
                 self.run(until, tell)?;
-                if self.session.goes_round() {
-                    return Ok(Err("the program goes round for ever; what was waited for does not come".to_owned()));
-                }
             }
             Action::Select(name) => return Ok(self.select(name)),
             Action::Mode(name) => return Ok(self.turn_mode(name)),
