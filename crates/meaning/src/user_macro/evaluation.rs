@@ -12,6 +12,9 @@ use super::trouble::Trouble;
 
 /// Carries out a run. A lone variable may give a blank, everything else gives a number.
 pub(crate) fn evaluate(code: &Code, run: Run, source: &Source) -> Result<f64, Trouble> {
+    if let Some(result) = short(code, run, source) {
+        return result;
+    }
     let mut stack = [0.0f64; STACK];
     let mut top = 0usize;
     let ops = code.ops(run);
@@ -55,6 +58,29 @@ pub(crate) fn evaluate(code: &Code, run: Run, source: &Source) -> Result<f64, Tr
         top += 1;
     }
     Ok(stack[0])
+}
+
+/// The most frequent expressions, which need no stack: one operand, or two and what is done with them.
+#[inline]
+fn short(code: &Code, run: Run, source: &Source) -> Option<Result<f64, Trouble>> {
+    let operand = |op: Op| match op {
+        Op::Number(value) => Some(value),
+        Op::Local(index) => Some(source.variables().local(source.level, index)),
+        Op::Volatile(index) => Some(source.variables().volatile(index)),
+        Op::Permanent(index) => Some(source.variables().permanent(index)),
+        _ => None,
+    };
+    match *code.ops(run) {
+        [only] => operand(only).map(Ok),
+        [first, last, op @ (Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Compare(_))] => {
+            let (first, last) = (operand(first)?, operand(last)?);
+            Some(match op {
+                Op::Compare(comparison) => Ok(f64::from(u8::from(compare(comparison, first, last)))),
+                _ => finite(combine(op, filled(first), filled(last)), &op, last, code, run, 2),
+            })
+        }
+        _ => None,
+    }
 }
 
 /// A blank as the zero that it is in arithmetic.
