@@ -138,6 +138,24 @@ conditions! {
     PositionOffsetArcRadius = "position-offset-arc-radius",
     /// A movement code and a canned cycle in one block.
     CycleWithMotion = "cycle-with-motion",
+    /// Two codes of one group in a block.
+    GSameGroup = "g-same-group",
+    /// More G codes than a block may have.
+    GTooMany = "g-too-many",
+    /// A state-change code behind the movement code.
+    GOrder = "g-order",
+    /// Two movement codes in a block.
+    GTwoMoves = "g-two-moves",
+    /// A code that must be its block's only G code has company.
+    GNotAlone = "g-not-alone",
+    /// Exact stop without a movement code beside it.
+    ExactStopWithoutMovement = "exact-stop-without-movement",
+    /// Two codes claim the block's axis words.
+    AxisWordsClaimedTwice = "axis-words-claimed-twice",
+    /// A code that needs an axis word has none.
+    AxisWordMissing = "axis-word-missing",
+    /// What the program is in forbids the code: {1} is the G code that says so.
+    StateForbids = "state-forbids",
     /// The code is known and correct, but this program does not execute it yet.
     NotYetBuilt = "not-yet-built",
 

@@ -15,18 +15,35 @@ use crate::texts::{Texts, folder_of};
 /// The names of the controls at hand.
 pub fn control_names(folder: Option<&Path>) -> Result<Vec<String>, Failure> {
     let Some(folder) = folder else {
-        let mut names: Vec<_> = builtin_controls().map(str::to_owned).collect();
+        let mut names = builtin_controls();
         names.sort();
         return Ok(names);
     };
     let entries = fs::read_dir(folder).map_err(|e| Failure::call(format!("cannot read {}: {e}", folder.display())))?;
-    let mut names: Vec<_> = entries
-        .flatten()
-        .filter(|entry| entry.path().join("control.toml").is_file())
-        .filter_map(|entry| entry.file_name().into_string().ok())
-        .collect();
+    let mut names = Vec::new();
+    for name in entries.flatten().filter_map(|entry| entry.file_name().into_string().ok()) {
+        if folder.join(&name).join("control.toml").is_file() {
+            names.extend(files_of(folder, &name)?.names(&name));
+        }
+    }
     names.sort();
     Ok(names)
+}
+
+/// The files of the control of this name in a folder of controls, be it a folder of its own or a member of a family.
+fn own_files(folder: &Path, name: &str) -> Result<ControlFiles, Failure> {
+    if folder.join(name).join("control.toml").is_file() {
+        return files_of(folder, name);
+    }
+    let entries = fs::read_dir(folder).map_err(|e| Failure::call(format!("cannot read {}: {e}", folder.display())))?;
+    for family in entries.flatten().filter_map(|entry| entry.file_name().into_string().ok()) {
+        if folder.join(&family).join("control.toml").is_file()
+            && let Some(files) = files_of(folder, &family)?.of(&family, name)
+        {
+            return Ok(files);
+        }
+    }
+    Err(Failure::call(format!("there is no control `{name}`")))
 }
 
 /// Loads a control by its name.
@@ -37,7 +54,7 @@ pub fn load(name: &str, folder: Option<&Path>) -> Result<Control, Failure> {
     }
     let files = match folder {
         None => builtin_files(name).ok_or_else(|| Failure::call(format!("there is no control `{name}`")))?,
-        Some(folder) => files_of(folder, name)?,
+        Some(folder) => own_files(folder, name)?,
     };
     load_control(&files).map_err(|errors| Failure::data(&errors))
 }
@@ -54,13 +71,14 @@ fn files_of(folder: &Path, name: &str) -> Result<ControlFiles, Failure> {
         }
     }
     // A folder with a control's own tables alone takes the sentences that come with the program.
-    let builtin = builtin_controls().next().and_then(builtin_files);
+    let builtin = builtin_controls().first().and_then(|name| builtin_files(name));
     let shared = |name: &str| fs::read_to_string(folder.join(name)).ok();
     let conditions = shared("conditions.toml").or_else(|| builtin.as_ref().map(|files| files.conditions.clone()));
     let warnings = shared("warnings.toml").or_else(|| builtin.as_ref().map(|files| files.warnings.clone()));
     Ok(ControlFiles {
         folder: own.to_string_lossy().into_owned(),
         tables,
+        member: None,
         conditions: conditions.unwrap_or_default(),
         warnings: warnings.unwrap_or_default(),
     })

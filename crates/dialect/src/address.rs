@@ -59,6 +59,8 @@ pub struct Address {
     pub point: PointRule,
     /// Name of the alarm when the value is out of range.
     pub alarm: String,
+    /// Name of the alarm where the machine has no such axis; `None` is the alarm of any unknown address.
+    pub absent: Option<String>,
     /// What it is, for people.
     pub text: String,
     /// What the row rests on.

@@ -29,9 +29,12 @@ pub(crate) struct Sentences {
 impl Control {
     /// The alarm that this control raises.
     pub fn alarm_name(&self, alarm: &Alarm) -> AlarmName {
-        let own = self.address(alarm.letter).map(|address| address.alarm.as_str());
+        let address = self.address(alarm.letter);
         let by_address = match alarm.condition {
-            Condition::ValueOutOfRange | Condition::DigitsTooMany | Condition::CodeTooLargeForLines => own,
+            Condition::AddressUnavailable => address.and_then(|address| address.absent.as_deref()),
+            Condition::ValueOutOfRange | Condition::DigitsTooMany | Condition::CodeTooLargeForLines => {
+                address.map(|address| address.alarm.as_str())
+            }
             _ => None,
         };
         let row = by_address.and_then(|name| self.alarms.iter().find(|row| row.name == name)).or_else(|| {

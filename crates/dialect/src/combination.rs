@@ -1,7 +1,7 @@
 //! Which G codes may stand together in one block.
 //!
-//! The rules that no table row can say: R28, R31, R32 of the YASNAC MX1 (operator's manual TOE-C843-7.30, 2.9.1), as
-//! the policy `one-shot-company` reads them.
+//! Two schemes: a control whose codes have classes counts and orders them by its own [`Combination`]; elsewhere one-shot
+//! codes keep company as the policy `one-shot-company` says.
 
 use base::Condition;
 
@@ -9,6 +9,54 @@ use crate::control::Control;
 use crate::fitting::Fitting;
 use crate::meaning::Meaning;
 use crate::policy::{CycleWithMotion, OneShotCompany};
+use crate::row::Class;
+
+/// How many codes of which class may stand in a block.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Combination {
+    /// Codes of any class.
+    pub most_codes: usize,
+    /// State-change codes without a movement code.
+    pub most_states: usize,
+    /// State-change codes beside a movement code.
+    pub most_states_with_movement: usize,
+}
+
+impl Combination {
+    /// The first rule that a block's codes break: the condition and the index of the code that breaks it.
+    fn check(self, control: &Control, rows: &[u8]) -> Result<(), (Condition, usize)> {
+        let row = |index: usize| control.g_codes.get(usize::from(rows[index]));
+        let is = |index: usize, class: Class| row(index).is_some_and(|row| row.class == class);
+        let of = |class: Class| (0..rows.len()).filter(move |&index| is(index, class));
+        let found = |condition, index: Option<usize>| index.map_or(Ok(()), |index| Err((condition, index)));
+        if let Some(solo) = of(Class::Solo).next()
+            && rows.len() > 1
+        {
+            // The caret stands under the code that should not be here: the other one, or the second of two alike.
+            let other = of(Class::Solo).nth(1).unwrap_or(solo);
+            return Err((Condition::GNotAlone, other));
+        }
+        let movement = of(Class::Movement).next();
+        found(Condition::GTwoMoves, of(Class::Movement).nth(1))?;
+        let group = |index: usize| row(index).and_then(|row| row.group);
+        found(
+            Condition::GSameGroup,
+            of(Class::State).find(|&index| of(Class::State).any(|other| other < index && group(other) == group(index))),
+        )?;
+        if let Some(movement) = movement {
+            found(Condition::GOrder, of(Class::State).find(|&index| index > movement))?;
+            found(Condition::GTooMany, of(Class::State).nth(self.most_states_with_movement))?;
+        } else {
+            found(Condition::GTooMany, of(Class::State).nth(self.most_states))?;
+        }
+        found(Condition::GTooMany, (rows.len() > self.most_codes).then_some(self.most_codes))?;
+        let exact_stop = |&index: &usize| row(index).is_some_and(|row| row.meaning == Meaning::ExactStop);
+        match movement {
+            None => found(Condition::ExactStopWithoutMovement, (0..rows.len()).find(exact_stop)),
+            Some(_) => Ok(()),
+        }
+    }
+}
 
 /// The G codes of a block as written: rows of the control's table.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +72,9 @@ pub struct Written<'a> {
 /// # Errors
 /// The condition and the index (in the order of writing) of the code that is refused.
 pub fn check_combination(control: &Control, fitting: &Fitting, written: Written) -> Result<(), (Condition, usize)> {
+    if let Some(combination) = control.combination {
+        return combination.check(control, written.rows);
+    }
     if written.rows.len() < 2 && written.motion.is_some_and(|motion| !motion.is_arc()) {
         return Ok(());
     }

@@ -4,8 +4,10 @@ use syntax::Grammar;
 
 use crate::address::Address;
 use crate::alarm::{AlarmRow, Sentences};
+use crate::combination::Combination;
 use crate::fitting::FROM_AXES;
 use crate::meaning::{MMeaning, Meaning};
+use crate::member::AxisLetter;
 use crate::policy::ASKED;
 use crate::row::{Division, GCode, MCode, OptionRow, Origin, ParameterRow, PolicyRow};
 use crate::station::StationTable;
@@ -91,6 +93,12 @@ pub struct Roles {
     pub scaling: Option<usize>,
     /// The second stored stroke area, on a control that has it.
     pub stroke: Option<usize>,
+    /// Coordinate rotation, on a control that has it.
+    pub rotation: Option<usize>,
+    /// Polar coordinates, on a control that has them.
+    pub polar: Option<usize>,
+    /// Constant surface speed, on a control that has it.
+    pub surface_speed: Option<usize>,
 }
 
 /// Tolerances and clearances that are parameters on this control: indices of the parameter rows.
@@ -131,6 +139,8 @@ pub struct FeedSettings {
 pub struct Control {
     /// The name by which users choose it.
     pub name: String,
+    /// The folder of its tables, which other members of its family share.
+    pub family: String,
     /// Its full name.
     pub title: String,
     /// Who made it.
@@ -139,6 +149,10 @@ pub struct Control {
     pub summary: String,
     /// The machine taken when none is named.
     pub stock_machine: String,
+    /// The letters of its axes in their order; empty where the machine alone decides.
+    pub axes: Vec<AxisLetter>,
+    /// What may stand together in a block, where classes of codes decide it.
+    pub combination: Option<Combination>,
     /// How its texts are read.
     pub grammar: Grammar,
     /// How a text divides into programs.
@@ -147,6 +161,8 @@ pub struct Control {
     pub last_word_wins: bool,
     /// Least input increments: nanometres (metric), nanometres (inch), microdegrees.
     pub increments: [i64; 3],
+    /// Index of the parameter with which a number without a point is the value itself.
+    pub whole_units: Option<usize>,
     /// Blocks read ahead of the executing one: ordinarily, in compensation, in buffering mode.
     pub read_ahead: [usize; 3],
     /// Levels of subprograms.

@@ -6,7 +6,7 @@ use tape::{CodeError, Codes};
 
 use crate::control::Control;
 use crate::policy::{KNOWN, Options, Policies};
-use crate::row::{Division, ParameterKind};
+use crate::row::{Division, ParameterKind, ParameterRow};
 
 /// A parameter as a user sets it.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -123,7 +123,8 @@ impl Fitting {
 
     /// True if a setting protects the program of this number.
     pub fn protects(&self, control: &Control, number: u32) -> bool {
-        let bits = self.bits(control.station.protection);
+        let Some(protection) = control.station.protection else { return false };
+        let bits = self.bits(protection);
         let mut ranges = control.station.protected.iter().enumerate();
         ranges.any(|(bit, [low, high])| bits >> bit & 1 == 1 && (*low..=*high).contains(&number))
     }
@@ -174,7 +175,10 @@ impl Fitting {
         };
         let row = &control.parameters[index];
         let wrong = |why: &str| FittingError(format!("parameter {name} = {}: {why}", setting.value));
-        let value = parse_value(&setting.value, row.kind).ok_or_else(|| wrong("this is no value of it"))?;
+        let value = parse_value(&setting.value, row).ok_or_else(|| match row.kind {
+            ParameterKind::Choice => wrong(&format!("it is one of {}", row.values.join(", "))),
+            _ => wrong("this is no value of it"),
+        })?;
         if let Some(bit) = setting.bit {
             if row.kind != ParameterKind::Bits || bit > 7 {
                 return Err(wrong("it has no such bit"));
@@ -267,8 +271,12 @@ impl Fitting {
 }
 
 /// A parameter's value as users write it.
-fn parse_value(text: &str, kind: ParameterKind) -> Option<f64> {
-    let text = text.trim();
+fn parse_value(text: &str, row: &ParameterRow) -> Option<f64> {
+    let (text, kind) = (text.trim(), row.kind);
+    if kind == ParameterKind::Choice {
+        let same = |value: &String| value.eq_ignore_ascii_case(text);
+        return row.values.iter().position(same).map(|index| index as f64);
+    }
     if kind == ParameterKind::Bits {
         if let Some(bits) = text.strip_prefix("0b") {
             return u8::from_str_radix(bits, 2).ok().map(f64::from);

@@ -12,6 +12,7 @@ mod control;
 mod fitting;
 mod load;
 mod meaning;
+mod member;
 mod occasion;
 mod policy;
 mod row;
@@ -24,13 +25,14 @@ mod word_order;
 pub use address::{Address, AddressKind, PointRule};
 pub use alarm::AlarmRow;
 pub use builtin::{builtin_controls, builtin_files};
-pub use combination::{Written, check_combination};
+pub use combination::{Combination, Written, check_combination};
 pub use control::{
     Control, FeedSettings, Group, GroupCodes, GroupRule, Grouping, MOST_GROUPS, NO_CODE, Roles, TapeRules, Tolerances,
 };
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use load::{ControlFiles, load_control};
 pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};
+pub use member::AxisLetter;
 pub use occasion::{Fate, Occasion, StateItem, StateRow};
 pub use policy::{
     ArcWithoutCentre, CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleWithMotion, DwellVariable,
@@ -39,9 +41,9 @@ pub use policy::{
     ScalingCompany, SkipWithoutSignal, StrokeCheck, UnitChangeOffsets,
 };
 pub use row::{
-    Certainty, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,
+    Certainty, Class, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,
 };
-pub use station::{ModeKind, ModeRow, StationTable};
+pub use station::{Key, ModeKind, ModeRow, StationTable};
 pub use word_order::put_in_order;
 
 pub use user_macro::{ArgumentRow, FunctionRow, UserMacro, VariableRow};
@@ -62,8 +64,11 @@ mod tests {
     #[test]
     fn every_builtin_control_loads() {
         for name in builtin_controls() {
-            let files = builtin_files(name).expect("it is built in");
-            assert!(load_control(&files).is_ok_and(|control| control.name == name), "{name}");
+            let files = builtin_files(&name).expect("it is built in");
+            match load_control(&files) {
+                Ok(control) => assert_eq!(control.name, name),
+                Err(errors) => panic!("{}", errors.iter().map(|e| format!("{e}\n\n")).collect::<String>()),
+            }
         }
     }
 

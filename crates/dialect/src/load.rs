@@ -4,6 +4,7 @@
 
 mod alarms;
 mod codes;
+mod members;
 mod settings;
 mod station;
 mod user_macro;
@@ -12,8 +13,10 @@ mod warnings;
 use data::{DataError, Document, Table};
 use syntax::{Colon, Grammar, LowerCase, Semicolon};
 
+use crate::combination::Combination;
 use crate::control::{Control, FeedSettings, Group, GroupRule, Grouping, MOST_GROUPS, Roles, TapeRules, Tolerances};
 use crate::meaning::Meaning;
+use crate::member::Member;
 use crate::row::{Certainty, GCode, Origin, ParameterRow};
 
 /// The text of a control's files.
@@ -23,6 +26,8 @@ pub struct ControlFiles {
     pub folder: String,
     /// File name and text of every table.
     pub tables: Vec<(String, String)>,
+    /// Which member of the folder's family, where it holds one.
+    pub member: Option<String>,
     /// The text of `conditions.toml`, shared by all controls.
     pub conditions: String,
     /// The text of `warnings.toml`, shared by all controls.
@@ -91,6 +96,8 @@ struct Head {
     grouping: Grouping,
     last_word_wins: bool,
     increments: [i64; 3],
+    whole_units: Option<String>,
+    combination: Option<Combination>,
     read_ahead: [usize; 3],
     levels: [usize; 2],
     highest_offset: u32,
@@ -136,7 +143,7 @@ fn small(value: Option<i64>) -> usize {
     value.and_then(|n| usize::try_from(n).ok()).unwrap_or(0)
 }
 
-fn head(root: &mut Table) -> Head {
+fn head(root: &mut Table, member: &str) -> Head {
     let format_place = root.place_of("format");
     root.require("format");
     if let (Some(format), Some(place)) = (root.integer("format"), format_place)
@@ -149,10 +156,15 @@ fn head(root: &mut Table) -> Head {
         root.require(key);
     }
     let increments = root.table("increments", |t| {
+        let whole_units = t.string("whole_units");
         let mut counts =
             |key, unit: f64, fallback: i64| t.number(key).map_or(fallback, |value| (value * unit).round() as i64);
-        [counts("metric_mm", 1e6, 1000), counts("inch_in", 25.4e6, 2540), counts("rotary_deg", 1e6, 1000)]
+        (
+            whole_units,
+            [counts("metric_mm", 1e6, 1000), counts("inch_in", 25.4e6, 2540), counts("rotary_deg", 1e6, 1000)],
+        )
     });
+    let (whole_units, increments) = increments.map_or((None, None), |(whole, counts)| (whole, Some(counts)));
     let increments = increments.filter(|all| all.iter().all(|&n| n > 0)).unwrap_or([1000, 2540, 1000]);
     let read_ahead = root.table("read_ahead", |t| {
         [small(t.integer("blocks")), small(t.integer("compensation")), small(t.integer("buffering"))]
@@ -190,6 +202,8 @@ fn head(root: &mut Table) -> Head {
         grouping,
         last_word_wins,
         increments,
+        whole_units,
+        combination: root.table("combination", combination),
         read_ahead: read_ahead.unwrap_or([1; 3]),
         levels: levels.unwrap_or([4; 2]),
         highest_offset,
@@ -202,9 +216,18 @@ fn head(root: &mut Table) -> Head {
         mirror_setting: mirror_setting.flatten(),
         tape: root.table("tape", settings::tape),
         groups: root.tables("group", codes::group),
-        options: root.tables("option", settings::option),
+        options: root.tables("option", |row| settings::option(row, member)).into_iter().flatten().collect(),
         policies: root.tables("policy", settings::policy),
     }
+}
+
+fn combination(table: &mut Table) -> Combination {
+    let [most_codes, most_states, most_states_with_movement] =
+        ["most_codes", "most_states", "most_states_with_movement"].map(|key| {
+            table.require(key);
+            small(table.integer(key))
+        });
+    Combination { most_codes, most_states, most_states_with_movement }
 }
 
 /// Reads and validates a control.
@@ -214,8 +237,10 @@ fn head(root: &mut Table) -> Head {
 pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     let mut errors = Vec::new();
     let mut keep = |found: Vec<DataError>| errors.extend(found);
-    let head = files.read("control.toml", head).map_err(&mut keep).ok();
-    let parameters = files.read("parameters.toml", settings::parameters).map_err(&mut keep).ok();
+    let member = files.own_member()?;
+    let name = member.as_ref().map_or("", |member| member.name.as_str());
+    let head = files.read("control.toml", |root| head(root, name)).map_err(&mut keep).ok();
+    let parameters = files.read("parameters.toml", |root| settings::parameters(root, name)).map_err(&mut keep).ok();
     let addresses = files.read("addresses.toml", settings::addresses).map_err(&mut keep).ok();
     let m_codes = files.read("m_codes.toml", codes::m_codes).map_err(&mut keep).ok();
     let user_macro = files.read("macro.toml", user_macro::user_macro).map_err(&mut keep).ok();
@@ -266,12 +291,26 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         dwell: parameter_if_any(&parameters, "dwell in revolutions"),
     };
     let station = station::resolve(files, station, &parameters, &head.options)?;
-    Ok(Control {
+    let whole_units = head.whole_units.as_deref().map(|name| parameter_index(files, &parameters, name)).transpose()?;
+    let family = head.name.clone();
+    let member = member.unwrap_or(Member {
         name: head.name,
         title: head.title,
-        maker: head.maker,
         summary: head.summary,
         stock_machine: head.stock_machine,
+        axes: Vec::new(),
+    });
+    let axes = member.axes.iter().map(|axis| axis.resolve(files, &parameters)).collect::<Result<_, _>>()?;
+    Ok(Control {
+        name: member.name,
+        family,
+        title: member.title,
+        maker: head.maker,
+        summary: member.summary,
+        stock_machine: member.stock_machine,
+        axes,
+        combination: head.combination,
+        whole_units,
         grammar: head.grammar,
         grouping: head.grouping,
         last_word_wins: head.last_word_wins,
@@ -419,5 +458,8 @@ fn find_roles(files: &ControlFiles, groups: &[Group], rows: &[GCode]) -> Result<
         modal_macro: of(Meaning::ModalMacroOff)?,
         scaling: of(Meaning::ScalingOff).ok(),
         stroke: of(Meaning::StrokeCheckOn).ok(),
+        rotation: of(Meaning::RotationOff).ok(),
+        polar: of(Meaning::PolarOff).ok(),
+        surface_speed: of(Meaning::SurfaceSpeedOff).ok(),
     })
 }

@@ -29,6 +29,8 @@ meanings! {
         ExactStop = "exact-stop",
         ExactStopMode = "exact-stop-mode",
         CuttingMode = "cutting-mode",
+        TappingMode = "tapping-mode",
+        Thread = "thread",
         WriteData = "write-data",
         CircleCutClockwise = "circle-cut-clockwise",
         CircleCutCounterClockwise = "circle-cut-counter-clockwise",
@@ -57,12 +59,15 @@ meanings! {
         PositionReduce = "position-reduce",
         PositionDoubleExtend = "position-double-extend",
         PositionDoubleReduce = "position-double-reduce",
+        PolarOff = "polar-off",
+        PolarOn = "polar-on",
         ScalingOff = "scaling-off",
         ScalingOn = "scaling-on",
         BaseSystem = "base-system",
         WorkSystem = "work-system",
         MachineCoordinates = "machine-coordinates",
         SetCoordinates = "set-coordinates",
+        LocalCoordinates = "local-coordinates",
         MacroCall = "macro-call",
         ModalMacroCall = "modal-macro-call",
         ModalMacroOff = "modal-macro-off",
@@ -89,6 +94,8 @@ meanings! {
         Incremental = "incremental",
         FeedPerMinute = "feed-per-minute",
         FeedPerRevolution = "feed-per-revolution",
+        SurfaceSpeedOn = "surface-speed-on",
+        SurfaceSpeedOff = "surface-speed-off",
         ReturnInitial = "return-initial",
         ReturnR = "return-r",
         CornerOverride = "corner-override",
@@ -113,6 +120,7 @@ meanings! {
         MirrorOn = "mirror-on",
         CornerArc = "corner-arc",
         CornerIntersection = "corner-intersection",
+        InternalCall = "internal-call",
         SubprogramCall = "subprogram-call",
         SubprogramEnd = "subprogram-end",
     }
@@ -172,8 +180,8 @@ meanings! {
 impl Meaning {
     /// True for movements that stay in force from block to block: positioning, lines, arcs.
     pub const fn is_motion(self) -> bool {
-        use Meaning::{ArcClockwise, ArcCounterClockwise, Linear, OneSidedPositioning, Rapid};
-        matches!(self, Rapid | Linear | ArcClockwise | ArcCounterClockwise | OneSidedPositioning)
+        use Meaning::{ArcClockwise, ArcCounterClockwise, Linear, OneSidedPositioning, Rapid, Thread};
+        matches!(self, Rapid | Linear | ArcClockwise | ArcCounterClockwise | OneSidedPositioning | Thread)
     }
 
     /// True for arcs.

@@ -26,6 +26,22 @@ pub enum Division {
     Sibling,
 }
 
+/// What may stand beside a G code, on a control whose codes have classes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Class {
+    /// It changes a state: before a movement code, of different groups.
+    #[default]
+    State,
+    /// It moves axes: one a block.
+    Movement,
+    /// It stands alone.
+    Solo,
+    /// It changes how the block's movement is made.
+    Modifier,
+    /// Any other code in force in its own block.
+    OneShot,
+}
+
 /// One G code.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct GCode {
@@ -35,6 +51,8 @@ pub struct GCode {
     pub group: Option<u8>,
     /// Whether the control has it.
     pub division: Division,
+    /// What may stand beside it, where classes decide that.
+    pub class: Class,
     /// What it does.
     pub meaning: Meaning,
     /// Which one of several alike (work system 1 to 6), 0 otherwise.
@@ -113,6 +131,8 @@ pub enum ParameterKind {
     Length,
     /// A plain number.
     Number,
+    /// One of several words; its value is the word's index.
+    Choice,
 }
 
 /// One bit of a parameter.
@@ -135,6 +155,8 @@ pub struct ParameterRow {
     pub kind: ParameterKind,
     /// Its value when new.
     pub default: f64,
+    /// The words it may be, for a choice.
+    pub values: Vec<String>,
     /// The values it may have.
     pub range: Option<[f64; 2]>,
     /// What it does, for people.

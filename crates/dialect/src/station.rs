@@ -18,6 +18,13 @@ pub enum ModeKind {
     Manual,
 }
 
+/// What a key beside the usual buttons does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Key {
+    /// Stops the program and resets the control.
+    Reset,
+}
+
 /// One position of the mode switch.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ModeRow {
@@ -42,16 +49,20 @@ pub struct StationTable {
     pub jog_speed: usize,
     /// Index of the parameter that says whether DRY RUN replaces the rapid rate too.
     pub dry_run_rapid: usize,
-    /// Index of the parameter with the rate of the lowest step of the rapid override, mm/min.
-    pub lowest_rapid: usize,
+    /// Index of the parameter with the rate of the lowest step of the rapid override, mm/min; `None`: the axes stand still.
+    pub lowest_rapid: Option<usize>,
     /// Programs that can be registered.
     pub most_programs: usize,
     /// Index of the option with which there is no such limit.
     pub more_programs: Option<usize>,
     /// Index of the parameter whose bits protect ranges of program numbers.
-    pub protection: usize,
+    pub protection: Option<usize>,
     /// Those ranges, the first for D0.
     pub protected: Vec<[u32; 2]>,
+    /// Keys beside the usual buttons, and what they do.
+    pub keys: Vec<(String, Key)>,
+    /// A program's end always resets the control, whatever is wired.
+    pub end_resets: bool,
     /// What becomes of every state that is no modal group.
     pub states: Vec<StateRow>,
 }

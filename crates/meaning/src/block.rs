@@ -90,6 +90,7 @@ pub(crate) fn read_meaning(
     let mut words = Words::new(block, command.place, word_count, setting.record.as_ref());
     // The multiplier counts in program text and in a macro call's arguments, not inside a macro's body.
     words.coarse = if setting.fitting.options.input_x10 && calls.macro_level() == 0 { 10 } else { 1 };
+    words.whole_units = setting.whole_units();
     check_faults(setting, &words, block, cut)?;
     check_skips(setting, &words, block)?;
     let control = setting.control.as_ref();
@@ -335,9 +336,9 @@ impl Reading<'_> {
             return Err(self.words.alarm(Condition::AddressUnavailable, facts.letter));
         };
         let value = if facts.rotary {
-            control.angle(address, number)
+            control.angle(address, self.words.pointed(number))
         } else {
-            control.length(address, number, self.units, self.words.coarse)
+            control.length(address, self.words.pointed(number), self.units, self.words.coarse)
         };
         match value {
             Ok(value) => {

@@ -93,6 +93,9 @@ impl Reading<'_> {
                     self.calls_or_returns = true;
                     flow = self.call(word)?;
                 }
+                MMeaning::InternalCall => {
+                    return Err(self.words.alarm_at(Condition::NotYetBuilt, word).into());
+                }
                 MMeaning::SubprogramEnd => {
                     self.calls_or_returns = true;
                     flow = self.subprogram_end()?;

@@ -29,7 +29,7 @@ impl Reading<'_> {
             return Ok(());
         }
         let nanometres = if per_revolution {
-            control.feed_per_revolution(address, number, self.units, self.words.coarse)
+            control.feed_per_revolution(address, self.words.pointed(number), self.units, self.words.coarse)
         } else {
             let tenths = self.setting.fitting.policies.inch_feed_integer == InchFeedInteger::Tenth;
             control.feed_per_minute(address, number, self.units, tenths)

@@ -32,6 +32,11 @@ impl Setting {
         to_mm(counts, self.facts.axes.len())
     }
 
+    /// True if a number without a point is the value itself, by the parameter that the control has for it.
+    pub fn whole_units(&self) -> bool {
+        self.control.whole_units.is_some_and(|parameter| self.fitting.parameter(parameter) != 0.0)
+    }
+
     /// Whether G92 presets the UNIVERSAL display, by the parameter bit that the control has for it.
     pub fn presets_universal(&self) -> bool {
         self.control

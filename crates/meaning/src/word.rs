@@ -32,6 +32,8 @@ pub(crate) struct Words<'b> {
     pub place: Place,
     /// How many least increments a plain length counts in units of one.
     pub coarse: i64,
+    /// A number without a point is the value itself, as if it were written with one.
+    pub whole_units: bool,
     record: Option<&'b RefCell<WordsRead>>,
     by_letter: [u8; 26],
     present: u32,
@@ -49,7 +51,7 @@ impl<'b> Words<'b> {
             by_letter[usize::from(word.letter - b'A') % 26] = index as u8;
             present |= crate::unknown::letter_bit(word.letter);
         }
-        Words { block, place, coarse: 1, record, by_letter, present }
+        Words { block, place, coarse: 1, whole_units: false, record, by_letter, present }
     }
 
     /// Notes what a word was read as, where that is recorded; the value is in mm, degrees, seconds or a plain number.
@@ -113,6 +115,11 @@ impl<'b> Words<'b> {
         }
     }
 
+    /// A length or angle as the control takes it.
+    pub fn pointed(&self, number: Decimal) -> Decimal {
+        Decimal { point: number.point || self.whole_units, ..number }
+    }
+
     /// The number of this word.
     pub fn value(&self, word: &Word) -> Result<Decimal, Alarm> {
         match word.value {
@@ -161,14 +168,15 @@ impl<'b> Words<'b> {
 
     /// A word as a length in nanometres.
     pub fn length(&self, control: &Control, letter: u8, units: UnitSystem) -> Result<Option<f64>, Alarm> {
-        let length =
-            self.read(control, letter, |address, number| control.length(address, number, units, self.coarse))?;
+        let length = self.read(control, letter, |address, number| {
+            control.length(address, self.pointed(number), units, self.coarse)
+        })?;
         Ok(length.map(|counts| self.noted(letter, ReadAs::Length, counts as f64, 1e6)))
     }
 
     /// A word as an angle in microdegrees.
     pub fn angle(&self, control: &Control, letter: u8) -> Result<Option<f64>, Alarm> {
-        let angle = self.read(control, letter, |address, number| control.angle(address, number))?;
+        let angle = self.read(control, letter, |address, number| control.angle(address, self.pointed(number)))?;
         Ok(angle.map(|counts| self.noted(letter, ReadAs::Angle, counts as f64, 1e6)))
     }
 

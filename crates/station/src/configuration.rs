@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use base::{AXES, AxisSet, Point};
-use dialect::{Control, Fitting};
+use dialect::{AxisLetter, Control, Fitting, ParameterSetting};
 use machine::MachineFile;
 use meaning::{Memory, OffsetTable, Variables};
 
@@ -143,6 +143,46 @@ impl Configuration {
         Ok(())
     }
 
+    /// Gives the machine's axes the letters that the control has for them. An axis whose letter a parameter chooses has
+    /// the machine's letter where the set-up does not choose; chosen otherwise it is what its new letter usually is,
+    /// turning (A, B, C) or sliding.
+    fn name_axes(&mut self, setups: &[&Setup]) -> Result<(), ConfigurationError> {
+        let control = self.control.clone();
+        if control.axes.is_empty() {
+            return Ok(());
+        }
+        if self.machine.axes.len() > control.axes.len() {
+            let (title, most, count) = (&control.title, control.axes.len(), self.machine.axes.len());
+            return Err(wrong(format!("the {title} has {most} axes at most, the machine {count}")));
+        }
+        let settings = || setups.iter().flat_map(|setup| &setup.parameters);
+        for (axis, own) in self.machine.axes.iter_mut().zip(&control.axes) {
+            match *own {
+                AxisLetter::Fixed(letter) if letter == axis.letter => {}
+                AxisLetter::Fixed(letter) => {
+                    let (title, own, other) = (&control.title, char::from(letter), char::from(axis.letter));
+                    return Err(wrong(format!("the {title} has an axis {own} where the machine has {other}")));
+                }
+                AxisLetter::Parameter(index) => {
+                    let Some(row) = control.parameters.get(index) else { continue };
+                    let letter = match settings().rfind(|setting| setting.name.eq_ignore_ascii_case(&row.name)) {
+                        Some(setting) => setting.value.trim().to_ascii_uppercase(),
+                        None => char::from(axis.letter).to_string(),
+                    };
+                    let setting = ParameterSetting { name: row.name.clone(), bit: None, value: letter.clone() };
+                    self.fitting.set_parameter(&control, &setting).map_err(|error| wrong(error.0))?;
+                    let letter = letter.bytes().next().unwrap_or(axis.letter);
+                    if letter != axis.letter {
+                        let kind = control.address(letter).map(|address| address.kind);
+                        axis.rotary = kind == Some(dialect::AddressKind::RotaryAxis);
+                        axis.letter = letter;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// What the machine's axes say of the control's options: a fourth axis, an axis B.
     fn fit_axes(&mut self, setups: &[&Setup]) -> Result<(), ConfigurationError> {
         let control = self.control.clone();
@@ -152,6 +192,7 @@ impl Configuration {
                 matches!(address.kind, LinearAxis | RotaryAxis) || letter == b'B'
             })
         };
+        self.name_axes(setups)?;
         if let Some(axis) = self.machine.axes.iter().find(|axis| !known(axis.letter)) {
             return Err(wrong(format!("the {} has no axis {}", control.title, char::from(axis.letter))));
         }

@@ -54,6 +54,8 @@ pub struct Case {
     pub source: String,
     /// Command of the program and options that belong to it.
     pub run: Vec<String>,
+    /// The control, where the corpus of a family does not name it; options of the call name it otherwise.
+    pub control: Option<String>,
     /// What the command works on; `None` if it works on no file.
     pub file: Option<String>,
     /// Further arguments of the command line.
@@ -113,6 +115,7 @@ fn case(table: &mut Table) -> Case {
         certainty,
         source,
         run,
+        control: table.string("control"),
         file,
         arguments: table.strings("arguments").unwrap_or_default(),
         exit: table.integer("exit").and_then(|exit| i32::try_from(exit).ok()).unwrap_or(0),

@@ -95,6 +95,9 @@ fn judge_pair(case: &Case, folder: &Path, program: Program) -> Result<(), String
 /// Runs the case's command on a file; an exit code that is not the case's is an error.
 fn run(case: &Case, folder: &Path, file: Option<&str>, program: Program) -> Result<Outcome, String> {
     let mut arguments = case.run.clone();
+    if let Some(control) = &case.control {
+        arguments.extend(["--control".to_owned(), control.clone()]);
+    }
     arguments.extend(file.map(str::to_owned));
     arguments.extend(case.arguments.iter().cloned());
     let input = if file == Some("-") {

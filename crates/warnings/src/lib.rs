@@ -30,7 +30,7 @@ mod tests {
 
     #[test]
     fn every_rule_has_its_sentences_and_every_row_its_rule() {
-        let files = dialect::builtin_controls().next().and_then(dialect::builtin_files).expect("one is built in");
+        let files = dialect::builtin_files("yasnac-mx1").expect("it is built in");
         let control = dialect::load_control(&files).expect("it loads");
         for rule in Rule::ALL {
             assert!(control.warnings.iter().any(|row| row.name == rule.name()), "{} has no row", rule.name());
@@ -43,7 +43,7 @@ mod tests {
     #[test]
     fn what_a_control_lists_is_a_warning_of_single_controls() {
         for name in dialect::builtin_controls() {
-            let files = dialect::builtin_files(name).expect("it is built in");
+            let files = dialect::builtin_files(&name).expect("it is built in");
             let control = dialect::load_control(&files).expect("it loads");
             for own in &control.own_warnings {
                 let row = control.warnings.iter().find(|row| row.name == own.name);

@@ -12,7 +12,7 @@ use crate::setting;
 
 pub fn coverage(name: &str, controls: Option<&Path>, cases: &Path) -> Result<bool, Failure> {
     let control = setting::load(name, controls)?;
-    let folder = cases.join(name);
+    let folder = cases.join(&control.family);
     let mut rows = rows_of(&control);
     rows.extend(rules(&folder)?);
     let (text, whole) = listing(&control.title, &rows, &cases_in(&folder)?);

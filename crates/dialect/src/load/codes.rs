@@ -4,7 +4,7 @@ use data::Table;
 
 use super::origin;
 use crate::meaning::{MMeaning, Meaning};
-use crate::row::{Division, GCode, MCode, OptionRow, Origin};
+use crate::row::{Class, Division, GCode, MCode, OptionRow, Origin};
 
 /// A group whose codes are still names.
 pub(super) struct GroupDraft {
@@ -90,6 +90,14 @@ pub(super) fn g_codes(root: &mut Table, groups: &[u8], options: &[OptionRow]) ->
     rows
 }
 
+const CLASSES: &[(&str, Class)] = &[
+    ("state", Class::State),
+    ("movement", Class::Movement),
+    ("solo", Class::Solo),
+    ("modifier", Class::Modifier),
+    ("one-shot", Class::OneShot),
+];
+
 fn g_code(row: &mut Table, groups: &[u8], options: &[OptionRow], seen: &mut Vec<u16>) -> GCode {
     let code = code_number(row, "g", seen);
     let group_place = row.place_of("group");
@@ -134,6 +142,7 @@ fn g_code(row: &mut Table, groups: &[u8], options: &[OptionRow], seen: &mut Vec<
         code,
         group,
         division,
+        class: row.choice("class", CLASSES).unwrap_or_default(),
         meaning: row.choice("meaning", Meaning::TABLE).unwrap_or(Meaning::Dwell),
         number: row.integer("number").and_then(|n| u8::try_from(n).ok()).unwrap_or(0),
         text: row.required_string("text"),

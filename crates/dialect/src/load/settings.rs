@@ -6,15 +6,22 @@ use super::{origin, range};
 use crate::address::{Address, AddressKind, PointRule};
 use crate::row::{OptionRow, ParameterBit, ParameterKind, ParameterRow, PolicyRow};
 
-pub(super) fn option(row: &mut Table) -> OptionRow {
+/// Whether a row is there on this member of the family.
+fn is_of(row: &mut Table, member: &str) -> bool {
+    row.strings("only").is_none_or(|only| only.iter().any(|name| name == member))
+}
+
+pub(super) fn option(row: &mut Table, member: &str) -> Option<OptionRow> {
     row.require("default");
-    OptionRow {
+    let there = is_of(row, member);
+    let option = OptionRow {
         name: row.required_string("name"),
         text: row.required_string("text"),
         default: row.boolean("default").unwrap_or(true),
         excludes: row.strings("excludes").unwrap_or_default(),
         origin: origin(row),
-    }
+    };
+    there.then_some(option)
 }
 
 pub(super) fn policy(row: &mut Table) -> PolicyRow {
@@ -35,20 +42,26 @@ pub(super) fn policy(row: &mut Table) -> PolicyRow {
     }
 }
 
-pub(super) fn parameters(root: &mut Table) -> Vec<ParameterRow> {
-    root.tables("parameter", |row| {
+pub(super) fn parameters(root: &mut Table, member: &str) -> Vec<ParameterRow> {
+    let rows = root.tables("parameter", |row| {
+        let there = is_of(row, member);
         let number = row.integer("number").map(|n| n.to_string());
         let name = row.string("name");
         if number.is_none() && name.is_none() {
             row.error_here("a parameter has a `number` or a `name`");
         }
         row.require("kind");
-        let kinds =
-            [("bits", ParameterKind::Bits), ("length", ParameterKind::Length), ("number", ParameterKind::Number)];
-        ParameterRow {
+        let kinds = [
+            ("bits", ParameterKind::Bits),
+            ("length", ParameterKind::Length),
+            ("number", ParameterKind::Number),
+            ("choice", ParameterKind::Choice),
+        ];
+        let parameter = ParameterRow {
             name: number.or(name).unwrap_or_default(),
             kind: row.choice("kind", &kinds).unwrap_or(ParameterKind::Number),
             default: row.number("default").unwrap_or(0.0),
+            values: row.strings("values").unwrap_or_default(),
             range: range(row, "range"),
             text: row.required_string("text"),
             bits: row.tables("bit", |bit| ParameterBit {
@@ -57,8 +70,13 @@ pub(super) fn parameters(root: &mut Table) -> Vec<ParameterRow> {
                 origin: origin(bit),
             }),
             origin: origin(row),
+        };
+        if (parameter.kind == ParameterKind::Choice) == parameter.values.is_empty() {
+            row.error_here("a choice has its `values`, and no other parameter has");
         }
-    })
+        there.then_some(parameter)
+    });
+    rows.into_iter().flatten().collect()
 }
 
 /// How tapes are read, the parameters still by their names.
@@ -126,6 +144,7 @@ fn address(row: &mut Table) -> Address {
             .choice("point", &[("yes", PointRule::Yes), ("no", PointRule::No), ("dwell", PointRule::Dwell)])
             .unwrap_or(PointRule::No),
         alarm: row.required_string("alarm"),
+        absent: row.string("absent"),
         text: row.required_string("text"),
         origin: origin(row),
     }

@@ -1,22 +1,26 @@
 //! `station.toml`: modes, override switches, what becomes of states.
 
-use data::{DataError, Table};
+use data::{DataError, Entry, Table};
 
 use super::{ControlFiles, origin, parameter_index, refuse};
 use crate::occasion::{Fate, StateItem, StateRow};
 use crate::row::{OptionRow, ParameterRow};
-use crate::station::{ModeKind, ModeRow, StationTable};
+use crate::station::{Key, ModeKind, ModeRow, StationTable};
 
 /// The station whose parameters are still names.
 pub(super) struct StationDraft {
     pub modes: Vec<ModeRow>,
     pub overrides: [Vec<u16>; 3],
-    /// Names of the parameters: jog speed, whether it replaces the rapid rate, lowest rapid rate.
-    pub parameters: [String; 3],
+    /// Names of the parameters: jog speed, whether it replaces the rapid rate.
+    pub parameters: [String; 2],
+    /// Name of the parameter: lowest rapid rate.
+    pub lowest_rapid: Option<String>,
     pub programs: usize,
     pub more: Option<String>,
-    pub protection: String,
+    pub protection: Option<String>,
     pub protected: Vec<[u32; 2]>,
+    pub keys: Vec<(String, Key)>,
+    pub end_resets: bool,
     pub states: Vec<StateRow>,
 }
 
@@ -24,28 +28,45 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
     root.require("overrides");
     let overrides = root.table("overrides", |t| ["feed", "rapid", "spindle"].map(|key| steps(t, key)));
     root.require("speeds");
-    let parameters =
-        root.table("speeds", |t| ["jog", "dry_run_rapid", "lowest_rapid"].map(|key| t.required_string(key)));
+    let speeds = root
+        .table("speeds", |t| (["jog", "dry_run_rapid"].map(|key| t.required_string(key)), t.string("lowest_rapid")));
+    let (parameters, lowest_rapid) = speeds.unwrap_or_default();
     root.require("memory");
     let memory = root.table("memory", |t| {
         let programs = t.integer("programs").and_then(|n| usize::try_from(n).ok()).unwrap_or(usize::MAX);
-        (programs, t.string("more"), t.required_string("protection"), ranges(t, "protected"))
+        (programs, t.string("more"), t.string("protection"), ranges(t, "protected"))
     });
     let (programs, more, protection, protected) = memory.unwrap_or_default();
     let modes = root.tables("mode", mode);
     if modes.is_empty() {
         root.error_here("a station has at least one [[mode]]");
     }
+    let keys = root.table("keys", |t| t.rest().iter().filter_map(key).collect());
+    let end_resets =
+        root.table("program_end", |t| t.choice("resets", &[("always", true), ("EOP", false)]).unwrap_or(false));
     let mut seen = Vec::new();
     StationDraft {
+        keys: keys.unwrap_or_default(),
+        end_resets: end_resets.unwrap_or(false),
         modes,
         overrides: overrides.unwrap_or_default(),
-        parameters: parameters.unwrap_or_default(),
+        parameters,
+        lowest_rapid,
         programs,
         more,
         protection,
         protected,
         states: root.tables("state", |row| state(row, &mut seen)),
+    }
+}
+
+fn key(entry: &Entry) -> Option<(String, Key)> {
+    match entry.string().as_deref() {
+        Some("reset") => Some((entry.key.clone(), Key::Reset)),
+        _ => {
+            entry.error("a key does \"reset\"");
+            None
+        }
     }
 }
 
@@ -134,14 +155,17 @@ pub(super) fn resolve(
             .ok_or_else(|| refuse(files, "station.toml", format!("there is no option `{name}` in control.toml")))
     };
     draft.states.iter().filter_map(|row| row.kept_by.as_ref()).try_for_each(|name| option(name).map(|_| ()))?;
-    let [jog_speed, dry_run_rapid, lowest_rapid] = &draft.parameters;
+    let [jog_speed, dry_run_rapid] = &draft.parameters;
+    let found = |name: &Option<String>| name.as_ref().map(|name| parameter_index(files, parameters, name)).transpose();
     Ok(StationTable {
         jog_speed: parameter_index(files, parameters, jog_speed)?,
         dry_run_rapid: parameter_index(files, parameters, dry_run_rapid)?,
-        lowest_rapid: parameter_index(files, parameters, lowest_rapid)?,
+        lowest_rapid: found(&draft.lowest_rapid)?,
         most_programs: draft.programs,
         more_programs: draft.more.as_ref().map(option).transpose()?,
-        protection: parameter_index(files, parameters, &draft.protection)?,
+        protection: found(&draft.protection)?,
+        keys: draft.keys,
+        end_resets: draft.end_resets,
         protected: draft.protected,
         modes: draft.modes,
         overrides: draft.overrides,

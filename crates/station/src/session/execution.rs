@@ -203,7 +203,9 @@ impl<L: Library> Session<L> {
     }
 
     fn end(&mut self, kind: EndKind, place: Place) {
-        let reset = self.input(kind, self.inputs.eop, &self.configuration.machine.wiring.eop);
+        let ends = matches!(kind, EndKind::M02 | EndKind::M30 | EndKind::Text);
+        let reset = ends && self.configuration.control.station.end_resets
+            || self.input(kind, self.inputs.eop, &self.configuration.machine.wiring.eop);
         let rewind = kind == EndKind::M99 || self.input(kind, self.inputs.rwd, &self.configuration.machine.wiring.rwd);
         let groups = self.interpreter().executing_state().groups;
         let to = *self.machine.position();

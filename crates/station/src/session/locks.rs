@@ -55,7 +55,7 @@ impl<L: Library> Session<L> {
         };
         // The lowest step is a rate of its own, not a part of the axis' rate.
         match self.percents.rapid {
-            0 => overrides.rapid_limit = fitting.parameter(station.lowest_rapid) / 60.0,
+            0 => overrides.rapid_limit = fitting.parameter_if_any(station.lowest_rapid) / 60.0,
             percent => overrides.rapid = part(percent),
         }
         if self.in_force.dry_run {
