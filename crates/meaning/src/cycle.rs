@@ -72,6 +72,13 @@ pub(crate) struct Holes {
     pub rapid: RapidKind,
 }
 
+impl Holes {
+    /// The way into the hole: 1 or -1 along the drilling axis.
+    fn down(&self) -> f64 {
+        if self.bottom < self.r { -1.0 } else { 1.0 }
+    }
+}
+
 /// How far the work in one hole is.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Cursor {
@@ -85,6 +92,14 @@ impl Cursor {
         let phase = self.phase;
         self.phase += 1;
         phase
+    }
+
+    /// Cuts by Q from a level, to the bottom at most; true if it is reached.
+    fn cut(&mut self, holes: &Holes, from: f64) -> bool {
+        let next = from + holes.down() * holes.peck;
+        let reached = (next - holes.bottom) * holes.down() >= 0.0;
+        self.depth = if reached { holes.bottom } else { next };
+        reached
     }
 }
 
@@ -157,7 +172,7 @@ pub(crate) fn next_step(cycle: Meaning, holes: &Holes, at: &mut Cursor) -> Step 
     CYCLES.iter().find(|(meaning, _)| *meaning == cycle).map_or(Step::Done, |(_, step)| step(holes, at))
 }
 
-/// True if the tool goes to the R level before the cycle's own steps; back boring goes there by itself, beside the hole.
+/// True if the tool goes to the R level before the cycle's own steps; back boring goes there by itself, off the hole.
 pub(crate) fn begins_at_r(cycle: Meaning) -> bool {
     cycle != Meaning::BackBore
 }
@@ -191,7 +206,8 @@ pub(crate) fn store_shift(
 
 /// Takes the block's R, Z, Q and P (if `takes_dwell`) into the cycle's data.
 ///
-/// `initial` is the initial level in program coordinates. In incremental mode R counts from the initial level and Z from the R level; both are kept as absolute levels.
+/// `initial` is the initial level in program coordinates. In incremental mode R counts from the initial level and Z from
+/// the R level; both are kept as absolute levels.
 pub(crate) fn store(
     words: &Words,
     control: &dialect::Control,

@@ -101,7 +101,7 @@ impl<'b> Words<'b> {
         self.block.words.get(usize::from(index)).filter(|_| index != NO_WORD)
     }
 
-    /// The number of a word; a variable in its place is executed by the macro machine, which comes later.
+    /// The number of a word; variables have become numbers before the block is given its meaning.
     pub fn number(&self, letter: u8) -> Result<Option<Decimal>, Alarm> {
         match self.word(letter) {
             None => Ok(None),

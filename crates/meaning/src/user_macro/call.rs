@@ -51,16 +51,8 @@ impl Reading<'_> {
             return Err(self.one_shot_alarm(Condition::MacroNestingTooDeep).with([levels, 0.0, 0.0]).into());
         }
         self.take_arguments()?;
-        let target = Target::Program { number, from: self.words.place.source };
-        match self.calls.lookup(&target) {
-            None => Err(Refusal::Locate(target)),
-            Some(None) => {
-                let values = [f64::from(number), 0.0, 0.0];
-                Err(self.words.alarm(Condition::ProgramNotFound, b'P').with(values).into())
-            }
-            Some(Some(found)) if modal => Ok(Flow::ModalCall(found, repeats)),
-            Some(Some(found)) => Ok(Flow::MacroCall(found, repeats)),
-        }
+        let found = self.locate(Target::Program { number, from: self.words.place.source }, b'P')?;
+        Ok(if modal { Flow::ModalCall(found, repeats) } else { Flow::MacroCall(found, repeats) })
     }
 
     /// L of a call.
