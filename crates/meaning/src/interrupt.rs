@@ -19,6 +19,13 @@ pub struct Interrupt {
     pub(crate) depth: usize,
 }
 
+impl Interrupt {
+    /// The line on which the program goes on.
+    pub fn line(&self) -> u64 {
+        self.found.cursor.line
+    }
+}
+
 impl Reading<'_> {
     /// M91 P: the block is looked for at once, so that a missing one is found before the input turns on.
     pub fn interrupt_on(&mut self, word: &Word) -> Result<(), Refusal> {
