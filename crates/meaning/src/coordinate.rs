@@ -11,7 +11,7 @@ use crate::operation::SetValue;
 use crate::setting::Setting;
 use crate::state::State;
 
-/// The axis on which the tool length offset acts, whatever the plane.
+/// The axis of the spindle: the tool length offset acts on it and cycles drill along it, whatever the plane.
 pub const LENGTH_AXIS: u8 = b'Z';
 
 impl Setting {
@@ -93,8 +93,8 @@ impl Reading<'_> {
 
     /// G92: the present position gets the given coordinates; nothing moves.
     ///
-    /// Sets the base system and selects it (policy `g92-system = base`), or shifts all systems alike (`all`). With
-    /// #6005 D5 the UNIVERSAL display is preset too.
+    /// Sets the base system and selects it (policy `g92-system = base`), or shifts all systems alike (`all`). A
+    /// parameter can have the UNIVERSAL display preset too.
     pub fn set_coordinates(&mut self) -> Result<(), Alarm> {
         let control = self.control();
         let all_systems = self.setting.fitting.policies.g92_system == dialect::G92System::All;

@@ -23,6 +23,7 @@ pub(crate) mod pattern;
 use base::{Condition, Point, UnitSystem};
 use dialect::Meaning;
 
+use crate::coordinate::LENGTH_AXIS;
 use crate::operation::{Feed, RapidKind};
 use crate::word::Words;
 use pattern::Places;
@@ -206,8 +207,8 @@ pub(crate) fn store_shift(
 
 /// Takes the block's R, Z, Q and P (if `takes_dwell`) into the cycle's data.
 ///
-/// `initial` is the initial level in program coordinates. In incremental mode R counts from the initial level and Z from
-/// the R level; both are kept as absolute levels.
+/// `initial` is the initial level in program coordinates. In incremental mode R counts from the initial level and Z
+/// from the R level; both are kept as absolute levels.
 pub(crate) fn store(
     words: &Words,
     control: &dialect::Control,
@@ -220,11 +221,11 @@ pub(crate) fn store(
     if let Some(r) = words.length(control, b'R', units)? {
         data.r = Some(if absolute { r } else { initial + r });
     }
-    if let Some(z) = words.length(control, b'Z', units)? {
+    if let Some(z) = words.length(control, LENGTH_AXIS, units)? {
         data.bottom = match (absolute, data.r) {
             (true, _) => Some(z),
             (false, Some(r)) => Some(r + z),
-            (false, None) => return Err(words.alarm(Condition::CycleLevelMissing, b'Z')),
+            (false, None) => return Err(words.alarm(Condition::CycleLevelMissing, LENGTH_AXIS)),
         };
     }
     if let Some(q) = words.length(control, b'Q', units)? {

@@ -184,9 +184,15 @@ impl<'b> Words<'b> {
             None => Ok(None),
             Some(value) => match u32::try_from(value) {
                 Ok(count) => Ok(Some(count)),
-                Err(_) => Err(self.alarm(Condition::ValueOutOfRange, letter).with([value as f64, 0.0, 9999.0])),
+                Err(_) => Err(self.below(control, letter, value, 0)),
             },
         }
+    }
+
+    /// The alarm for a whole number that its address allows and that is too small for this use of it.
+    pub fn below(&self, control: &Control, letter: u8, value: i64, least: i64) -> Alarm {
+        let highest = control.address(letter).map_or(least, |address| address.range[1]);
+        self.alarm(Condition::ValueOutOfRange, letter).with([value as f64, least as f64, highest as f64])
     }
 
     /// A dwell in seconds.

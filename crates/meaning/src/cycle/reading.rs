@@ -7,6 +7,7 @@ use super::pattern::{Places, sin_cos_deg};
 use super::{CycleData, Holes, Spindle, needs_peck, needs_shift, store, store_shift};
 use crate::block::Reading;
 use crate::command::Body;
+use crate::coordinate::LENGTH_AXIS;
 use crate::operation::{Feed, RapidKind, Side};
 use crate::unknown::letter_bit;
 
@@ -22,7 +23,7 @@ impl Reading<'_> {
     }
 
     fn drilling_axis(&self) -> Result<usize, Alarm> {
-        self.setting.facts.axis(b'Z').ok_or_else(|| self.motion_alarm(Condition::AddressUnavailable))
+        self.setting.length_axis.ok_or_else(|| self.motion_alarm(Condition::AddressUnavailable))
     }
 
     /// Takes the initial level when the cycle mode is entered, and forgets the data when it is left.
@@ -52,7 +53,7 @@ impl Reading<'_> {
         let initial = self.initial_level(cycle)?;
         store(&self.words, control, units, absolute, takes_dwell, initial, &mut self.next.cycle)?;
         store_shift(&self.words, control, units, &mut self.next.cycle)?;
-        let levels = letter_bit(b'R') | letter_bit(b'Z');
+        let levels = letter_bit(b'R') | letter_bit(LENGTH_AXIS);
         if !self.words.has_any(self.setting.axis_letters | levels) {
             return Ok(());
         }
@@ -91,7 +92,7 @@ impl Reading<'_> {
         let size = self.words.length(control, b'I', self.units)?.unwrap_or(0.0);
         let angle = self.words.angle(control, b'J')?.unwrap_or(0.0) / 1e6;
         let (mut level, mut named) = (self.next.machine, self.axes_named()?);
-        if let (Some(drilling), true) = (self.setting.facts.axis(b'Z'), cycle.is_some()) {
+        if let (Some(drilling), true) = (self.setting.length_axis, cycle.is_some()) {
             named = named.without(base::AxisSet::only(drilling));
         }
         for axis in named.iter() {

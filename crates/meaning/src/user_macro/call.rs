@@ -58,7 +58,7 @@ impl Reading<'_> {
     /// L of a call.
     pub fn repeats(&self) -> Result<u32, Alarm> {
         match self.words.count(self.control(), b'L')? {
-            Some(0) => Err(self.words.alarm(Condition::ValueOutOfRange, b'L').with([0.0, 1.0, 9999.0])),
+            Some(0) => Err(self.words.below(self.control(), b'L', 0, 1)),
             repeats => Ok(repeats.unwrap_or(1)),
         }
     }
