@@ -301,7 +301,7 @@ impl Reader {
         Ok(Next::At(target.cursor))
     }
 
-    /// Where a goal is; `None` has started a search, and the statement is carried out anew when that has come to an end.
+    /// Where a goal is; `None` has started a search, and the statement is carried out anew when that has ended.
     fn locate(&mut self, goal: Goal, place: Extent) -> Result<Option<Found>, Trouble> {
         match self.calls.lookup(&goal) {
             None => self.look_for(goal),
