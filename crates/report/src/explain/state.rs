@@ -84,7 +84,9 @@ fn values(control: &Control, axes: &[MachineAxis], moment: Moment) -> Vec<(Strin
     points(axes, "displacement", &counts(&state.displacement), AxisSet::NONE, &mut list);
     let level = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |counts| coordinate(counts / 1e6));
     let cycle = &state.cycle;
-    list.push(("cycle: initial level (machine, without length offset)".to_owned(), coordinate(cycle.initial / 1e6)));
+    // Without a cycle there is no such level.
+    let initial = (*cycle != Default::default()).then_some(cycle.initial);
+    list.push(("cycle: initial level (machine, without length offset)".to_owned(), level(initial)));
     list.push(("cycle: R level".to_owned(), level(cycle.r)));
     list.push(("cycle: bottom".to_owned(), level(cycle.bottom)));
     list.push(("cycle: Q".to_owned(), coordinate(cycle.peck / 1e6)));
