@@ -1,4 +1,5 @@
-//! What stands in the text and no run shows: `unreachable` and `unused-subprogram`, and the size of the whole.
+//! What stands in the text and no run shows: `unreachable`, `unused-subprogram`, `allow-unknown`, and the size of the
+//! whole.
 //!
 //! A run says where the program ends; if something stands behind that end the text is read once more, twice in all: for
 //! the targets of its jumps and calls, then for the rules. A long text with nothing behind its end is not read again.
@@ -14,9 +15,9 @@ use tape::Codes;
 
 use crate::blocks::Blocks;
 use crate::finding::Finding;
-use crate::rule::memory_size;
 use crate::rule::unreachable::Unreachable;
 use crate::rule::unused_subprogram::UnusedSubprogram;
+use crate::rule::{allow_unknown, memory_size};
 
 /// Jumps and calls that are kept; a text with more is not judged.
 const MOST_TARGETS: usize = 65_536;
@@ -170,10 +171,13 @@ fn judge<L: Library>(
         if block.rewind && begun {
             break;
         }
+        let place = place_of(block, last);
+        for comment in &block.comments {
+            found.extend(allow_unknown::look(&String::from_utf8_lossy(blocks.text(*comment)), place));
+        }
         if block.is_empty() || block.rewind {
             continue;
         }
-        let place = place_of(block, last);
         if block.begins_program(&control.grammar) && begun {
             found.extend(unused.end(targets));
             unused.begin(block.whole_number(b'O'), place);

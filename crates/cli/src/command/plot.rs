@@ -1,7 +1,5 @@
 //! `plot`: the tool path as a picture.
 
-use std::fs;
-
 use base::Point;
 use machine::EventKind;
 use meaning::{CodeLine, Plane};
@@ -11,7 +9,7 @@ use report::{Format, render};
 use super::{name_of, open, run_through};
 use crate::arguments::PlotArguments;
 use crate::failure::Failure;
-use crate::output::{colour_err, say};
+use crate::output::{colour_err, say, write_file};
 use crate::show_alarm::show_alarm;
 
 /// What a picture can be.
@@ -87,6 +85,6 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
         Picture::Svg => drawing.svg().into_bytes(),
         Picture::Png => drawing.png(arguments.width).map_err(Failure::call)?,
     };
-    fs::write(output, bytes).map_err(|e| Failure::call(format!("cannot write {}: {e}", output.display())))?;
+    write_file(output, &bytes, &arguments.setting.files(&arguments.file))?;
     Ok(!alarmed)
 }
