@@ -96,7 +96,7 @@ impl Reading<'_> {
                 via[axis] -= self.setting.facts.axes.get(axis).map_or(0.0, |facts| facts.approach);
             }
         }
-        self.command.body = Body::Via { via, to };
+        self.command.body = Body::Via { via, to, stops: false };
         self.rapid_kind = RapidKind::Checked;
     }
 
@@ -167,7 +167,7 @@ impl Reading<'_> {
         if self.length_change != 0.0 && (has_center || has_radius || !self.axes_named()?.is_empty()) {
             return Err(self.words.alarm(Condition::LengthOffsetWithArc, b'H'));
         }
-        let axes = plane.letters().map(|letter| self.setting.facts.axis(letter));
+        let axes = plane.letters().map(|letter| self.arc_axis(letter));
         let [Some(u), Some(v)] = axes else { return Err(self.motion_alarm(Condition::AddressUnavailable)) };
         let (to, moved) = self.targets()?;
         let units = self.units;
@@ -214,7 +214,7 @@ impl Reading<'_> {
         let solved = solve(words).map_err(|(condition, values)| match condition {
             Condition::ArcWithoutCentre => self.motion_alarm(condition),
             Condition::ArcEndOff => {
-                let end = plane.letters();
+                let end = [u, v].map(|axis| self.setting.facts.axes.get(axis).map_or(b'X', |facts| facts.letter));
                 self.words.alarm(condition, if self.words.has(end[0]) { end[0] } else { end[1] }).with(values)
             }
             _ => self.words.alarm(condition, letter).with(values),
@@ -233,6 +233,16 @@ impl Reading<'_> {
         self.now_known = self.now_known.or(moved);
         self.next.machine = to;
         Ok(())
+    }
+
+    /// The axis of one of the plane's letters: the linear fourth axis along it (U, V, W along X, Y, Z) takes its place
+    /// where it stands in the block alone.
+    fn arc_axis(&self, letter: u8) -> Option<usize> {
+        let facts = &self.setting.facts;
+        let along = facts.axis(letter - (b'X' - b'U'));
+        let is_linear = |axis: &usize| facts.axes.get(*axis).is_some_and(|facts| !facts.rotary);
+        let alone = self.words.has(letter - (b'X' - b'U')) && !self.words.has(letter);
+        along.filter(is_linear).filter(|_| alone).or_else(|| facts.axis(letter))
     }
 
     /// Another axis beside the plane's two makes a helix, which is an option.
