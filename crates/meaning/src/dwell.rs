@@ -48,8 +48,12 @@ impl Reading<'_> {
     /// The number of a dwell's word; from a variable as if written with a point (policy `dwell-variable`).
     pub fn dwell_number(&self, letter: u8) -> Result<Option<Decimal>, Alarm> {
         let number = self.words.number(letter)?;
-        let seconds = self.setting.fitting.policies.dwell_variable == DwellVariable::Seconds;
-        let value = self.word_values.get(self.words.index(letter)).filter(|value| seconds && !value.is_nan());
-        Ok(number.map(|number| value.map_or(number, |&value| with_point(value))))
+        let value = self.word_values.get(self.words.index(letter)).filter(|value| !value.is_nan());
+        Ok(match value {
+            Some(&value) if self.setting.fitting.policies.dwell_variable == DwellVariable::Seconds => {
+                Some(with_point(value))
+            }
+            _ => number,
+        })
     }
 }
