@@ -3,7 +3,7 @@
 //! `machine = word + origin of the system in force + common shift (+ length offset on the length axis)`.
 
 use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
-use dialect::{Meaning, UnitChangeOffsets};
+use dialect::Meaning;
 
 use crate::block::Reading;
 use crate::command::Body;
@@ -83,12 +83,7 @@ impl Reading<'_> {
 
     /// A stored offset as it counts in the unit in force: policy `unit-change-offsets`.
     pub fn offset(&self, stored: Option<f64>) -> Option<f64> {
-        let keeps_digits = self.setting.fitting.policies.unit_change_offsets == UnitChangeOffsets::Keep;
-        let [metric, inch, _] = self.control().increments;
-        stored.map(|value| match self.units {
-            UnitSystem::Inch if keeps_digits => value / metric as f64 * inch as f64,
-            _ => value,
-        })
+        stored.map(|value| self.setting.offset_in(value, self.units == UnitSystem::Inch))
     }
 
     /// G92: the present position gets the given coordinates; nothing moves.

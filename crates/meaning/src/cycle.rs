@@ -205,7 +205,7 @@ pub(crate) fn store_shift(
     Ok(())
 }
 
-/// Takes the block's R, Z, Q and P (if `takes_dwell`) into the cycle's data.
+/// Takes the block's R, Z and Q into the cycle's data.
 ///
 /// `initial` is the initial level in program coordinates. In incremental mode R counts from the initial level and Z
 /// from the R level; both are kept as absolute levels.
@@ -214,7 +214,6 @@ pub(crate) fn store(
     control: &dialect::Control,
     units: UnitSystem,
     absolute: bool,
-    takes_dwell: bool,
     initial: f64,
     data: &mut CycleData,
 ) -> Result<(), base::Alarm> {
@@ -230,12 +229,6 @@ pub(crate) fn store(
     }
     if let Some(q) = words.length(control, b'Q', units)? {
         data.peck = q.abs();
-    }
-    if takes_dwell
-        && words.has(b'P')
-        && let Some(seconds) = words.seconds(control, b'P')?
-    {
-        data.dwell = seconds;
     }
     Ok(())
 }

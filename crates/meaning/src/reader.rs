@@ -242,7 +242,9 @@ impl Reader {
     fn search_on(&mut self) -> Option<Read> {
         let search = self.search.as_mut()?;
         let grammar = self.setting.control.grammar;
-        match search.advance(&mut self.supply, &grammar, &mut self.names, &mut self.block, &mut self.calls.index) {
+        let block_delete = self.setting.switches.block_delete;
+        let (supply, index) = (&mut self.supply, &mut self.calls.index);
+        match search.advance(supply, &grammar, &mut self.names, &mut self.block, index, block_delete) {
             Progress::NeedBytes { source, offset } => Some(self.need(source, offset)),
             Progress::NeedProgram { number } => Some(Read::NeedProgram { number }),
             Progress::Done(found) => {

@@ -3,6 +3,7 @@
 use base::{ProgramId, SourceId};
 use syntax::{Block, Cursor, Grammar, Outcome, read_block};
 
+use crate::block::cut_by_block_delete;
 use crate::jump::{Found, LoopsAround, ProgramIndex, Target};
 use crate::program::Names;
 use crate::supply::Supply;
@@ -86,6 +87,7 @@ impl Search {
         names: &mut Names,
         block: &mut Block,
         index: &mut ProgramIndex,
+        block_delete: u16,
     ) -> Progress {
         loop {
             let source = match (self.stage, self.target) {
@@ -100,6 +102,9 @@ impl Search {
                 Outcome::More => return Progress::NeedBytes { source, offset: self.cursor.offset },
                 Outcome::End => true,
                 Outcome::Block => {
+                    // A loop begins and ends where its statements are obeyed.
+                    let (_, cut) = cut_by_block_delete(block, block_delete);
+                    block.statement = block.statement.filter(|statement| statement.extent.at < cut);
                     let tape_end = block.rewind && self.passed;
                     self.passed |= !block.is_empty() && !block.rewind;
                     if let Target::Program { .. } = self.target {

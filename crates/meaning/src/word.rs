@@ -95,6 +95,11 @@ impl<'b> Words<'b> {
         self.present
     }
 
+    /// Where in the block the word of this letter stands.
+    pub fn index(&self, letter: u8) -> usize {
+        usize::from(self.by_letter[usize::from(letter - b'A') % 26])
+    }
+
     /// The word of this letter.
     pub fn word(&self, letter: u8) -> Option<&'b Word> {
         let index = self.by_letter[usize::from(letter - b'A') % 26];
@@ -195,9 +200,14 @@ impl<'b> Words<'b> {
         self.alarm(Condition::ValueOutOfRange, letter).with([value as f64, least as f64, highest as f64])
     }
 
-    /// A dwell in seconds.
-    pub fn seconds(&self, control: &Control, letter: u8) -> Result<Option<f64>, Alarm> {
-        let seconds = self.read(control, letter, |address, number| control.dwell_seconds(address, number))?;
-        Ok(seconds.map(|seconds| self.noted(letter, ReadAs::Seconds, seconds, 1.0)))
+    /// A number as the seconds of a dwell in the word of this letter.
+    pub fn seconds(&self, control: &Control, letter: u8, number: Decimal) -> Result<f64, Alarm> {
+        let Some(address) = control.address(b'P') else {
+            return Err(self.alarm(Condition::AddressUnavailable, letter));
+        };
+        match control.dwell_seconds(address, number) {
+            Ok(seconds) => Ok(self.noted(letter, ReadAs::Seconds, seconds, 1.0)),
+            Err((condition, values)) => Err(self.alarm(condition, letter).with(values)),
+        }
     }
 }

@@ -271,7 +271,7 @@ impl<L: Shelf> Operator<L> {
     fn run(&mut self, until: &Until, tell: &mut dyn FnMut(&mut Session<L>, Said)) -> Result<(), LibraryError> {
         loop {
             if let Until::Line(line) = until
-                && self.session.block_begins().is_some_and(|place| place.line == *line)
+                && self.session.line_begins().is_some_and(|place| place.line == *line)
             {
                 return Ok(());
             }

@@ -61,8 +61,11 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
                     Plane::Yz => plot::Plane::Yz,
                 };
                 let shape = Arc { plane, center: arc.center, sweep_deg: arc.sweep.to_degrees() };
+                // A fourth axis has no place in the picture: where it turns with one of the three, those go straight.
+                let letters = arc.axes.map(|axis| machine.axes.get(usize::from(axis)).map(|axis| axis.letter));
+                let shape = (letters == arc.plane.letters().map(Some)).then_some(shape);
                 let (from, to) = (at(&arc.from), at(&arc.to));
-                drawing.stroke(&Stroke { kind: Kind::Feed, from, to, arc: Some(shape), feed: *feed, tool });
+                drawing.stroke(&Stroke { kind: Kind::Feed, from, to, arc: shape, feed: *feed, tool });
             }
             EventKind::Code(code) if code.line == CodeLine::T => tool = code.code,
             EventKind::Code(code) if code.line == CodeLine::M && code.code == TOOL_CHANGE => {

@@ -1,6 +1,6 @@
 //! Statements carried out by the reader: variables written, jumps taken, loops turned.
 
-use base::{Alarm, Condition, Place};
+use base::{Alarm, AxisSet, Condition, Place};
 use dialect::VariableMeaning;
 use syntax::{Cursor, Extent};
 
@@ -236,8 +236,8 @@ impl Reader {
     fn write(&mut self, line: &Line, number: u32, value: f64, written: Written) -> Result<SetValue, Trouble> {
         match written {
             Written::Nothing => return Ok(SetValue::Variable { number, value }),
-            Written::Offset(offset, mm) => {
-                let write = DataWrite::Offset { number: offset, value: mm * 1e6 };
+            Written::Offset(offset, mm, stored) => {
+                let write = DataWrite::Offset { number: offset, value: stored };
                 self.state.memory_mark ^= self.setting.memory.write(write);
                 return Ok(SetValue::Offset { number: offset, value: mm });
             }
@@ -248,6 +248,7 @@ impl Reader {
                     let mut origin = self.setting.memory.work.get(system).copied().unwrap_or_default();
                     origin[axis] = counts;
                     self.state.memory_mark ^= self.setting.memory.write(DataWrite::Work { system, origin });
+                    return Ok(self.setting.work_origin(system, AxisSet::only(axis), &origin));
                 }
             },
             Written::BlockControl(bits) => self.state.block_control = bits,

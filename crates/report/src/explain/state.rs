@@ -67,47 +67,12 @@ fn values(control: &Control, axes: &[MachineAxis], moment: Moment) -> Vec<(Strin
     for (letter, value) in [(b'S', spindle), (b'T', tool), (b'B', index), (b'H', h), (b'D', d)] {
         list.add(char::from(letter), word(letter, value.to_string()));
     }
-<<<<<<< HEAD
     list.add("length offset", coordinate(state.length / 1e6));
     list.add("length offset still to be moved", coordinate(state.length_due / 1e6));
     list.places("machine", at, unknown.axes);
     list.places("program", program, unknown.axes);
     list.rest(control, state);
     list.values
-=======
-    list.push(("length offset".to_owned(), coordinate(state.length / 1e6)));
-    list.push(("length offset still to be moved".to_owned(), coordinate(state.length_due / 1e6)));
-    let counts = |point: &Point| point.map(|value| value / 1e6);
-    points(axes, "machine", at, state.unknown.axes, &mut list);
-    points(axes, "program", program, state.unknown.axes, &mut list);
-    points(axes, "base origin", &counts(&state.base_origin), state.unknown.origins, &mut list);
-    points(axes, "shift of all systems", &counts(&state.common_shift), AxisSet::NONE, &mut list);
-    points(axes, "zero of the UNIVERSAL display", &counts(&state.universal_zero), AxisSet::NONE, &mut list);
-    points(axes, "displacement", &counts(&state.displacement), AxisSet::NONE, &mut list);
-    let level = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |counts| coordinate(counts / 1e6));
-    let cycle = &state.cycle;
-    // Without a cycle there is no such level.
-    let initial = (*cycle != Default::default()).then_some(cycle.initial);
-    list.push(("cycle: initial level (machine, without length offset)".to_owned(), level(initial)));
-    list.push(("cycle: R level".to_owned(), level(cycle.r)));
-    list.push(("cycle: bottom".to_owned(), level(cycle.bottom)));
-    list.push(("cycle: Q".to_owned(), coordinate(cycle.peck / 1e6)));
-    list.push(("cycle: dwell".to_owned(), format!("{} s", plain(cycle.dwell, 3))));
-    list.push(("M last commanded".to_owned(), state.miscellaneous.to_string()));
-    list.push(("#3003".to_owned(), state.block_control.to_string()));
-    list.push(("#3004".to_owned(), state.feed_control.to_string()));
-    for (name, value) in fields(&format!("{cycle:?}")) {
-        if !KNOWN_OF_CYCLE.contains(&name.as_str()) {
-            other(axes, &format!("cycle: {}", name.replace('_', " ")), &value, &mut list);
-        }
-    }
-    for (name, value) in fields(&format!("{state:?}")) {
-        if !KNOWN.contains(&name.as_str()) {
-            other(axes, &name.replace('_', " "), &value, &mut list);
-        }
-    }
-    list
->>>>>>> ac41f57ee3b1bd5aa2439c3425bde03e623ef36c
 }
 
 impl List<'_> {
@@ -153,7 +118,9 @@ impl List<'_> {
         self.counts("zero of the UNIVERSAL display", universal_zero, AxisSet::NONE);
         self.counts("displacement", displacement, AxisSet::NONE);
         let level = |counts: Option<f64>| or_none(counts.map(|counts| coordinate(counts / 1e6)));
-        self.add("cycle: initial level (machine, without length offset)", coordinate(cycle.initial / 1e6));
+        // Without a cycle there is no such level.
+        let initial = (*cycle != Default::default()).then_some(cycle.initial);
+        self.add("cycle: initial level (machine, without length offset)", level(initial));
         self.add("cycle: R level", level(cycle.r));
         self.add("cycle: bottom", level(cycle.bottom));
         self.add("cycle: Q", coordinate(cycle.peck / 1e6));
