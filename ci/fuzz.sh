@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes one target (read, tape, interpret) for FUZZ_SECONDS (60) with libFuzzer; a finding stays in fuzz/artifacts/.
+# Fuzzes one target (read, interpret, macros, tape) for FUZZ_SECONDS (60) with libFuzzer; a finding stays in fuzz/artifacts/.
 # Runs on the stable compiler; the C++ part of libFuzzer needs a C++ compiler.
 set -euo pipefail
 cd "$(dirname "$0")/../fuzz"

@@ -2,8 +2,6 @@
 //!
 //! Words are exact counts of nanometres or microdegrees; geometry is `f64` millimetres and degrees.
 
-/// Nanometres in a millimetre; microdegrees in a thousandth of a degree times a thousand.
-pub const COUNTS_PER_UNIT: f64 = 1e6;
 /// Nanometres in an inch, exact by definition of the inch.
 pub const NM_PER_INCH: i64 = 25_400_000;
 
@@ -51,10 +49,3 @@ impl Seconds {
 /// A feed along a path.
 #[derive(Clone, Copy, PartialEq, PartialOrd, Debug, Default)]
 pub struct MmPerMinute(pub f64);
-
-impl MmPerMinute {
-    /// The same speed in mm/s.
-    pub fn per_second(self) -> f64 {
-        self.0 / 60.0
-    }
-}

@@ -1,6 +1,6 @@
 //! The command line: every command, every option, its help and an example.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -107,6 +107,16 @@ pub struct SettingArguments {
     /// Jumps and macro statements allowed without motion, dwell or stop before the alarm ENDLESS_LOOP
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     pub loop_limit: u64,
+}
+
+impl SettingArguments {
+    /// The files that a command with this program and set-up reads.
+    pub fn files<'a>(&'a self, program: &'a str) -> Vec<&'a Path> {
+        [Some(Path::new(program)), self.setup.as_deref(), self.machine.as_deref().map(Path::new)]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
 }
 
 /// `run`
@@ -350,7 +360,7 @@ pub struct SheetArguments {
     /// How the sheet is printed [default: by the ending of OUT, text without one]
     #[arg(long, value_enum)]
     pub format: Option<SheetFormat>,
-    /// The file to write instead of standard output
+    /// The file to write instead of standard output, - for that
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// The control and its set-up.
@@ -371,7 +381,7 @@ pub struct FmtArguments {
     #[arg(long, value_name = "START,STEP")]
     pub number: Option<String>,
     /// Write the one program here instead of over itself, - for standard output
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", conflicts_with = "check")]
     pub output: Option<String>,
     /// The control and its set-up.
     #[command(flatten)]

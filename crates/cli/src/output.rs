@@ -1,6 +1,8 @@
 //! Standard output, buffered, and whether a terminal is there.
 
+use std::fs;
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 
 use report::Paint;
 
@@ -36,6 +38,21 @@ impl Output {
     }
 }
 
+/// Writes a file, `-` for standard output; never over a file that the command reads.
+pub fn write_file(path: &Path, bytes: &[u8], read: &[&Path]) -> Result<(), Failure> {
+    let shown = path.display();
+    if path.as_os_str() == "-" {
+        return Ok(io::stdout().lock().write_all(bytes)?);
+    }
+    if let Ok(own) = fs::canonicalize(path)
+        && own.is_file()
+        && read.iter().any(|other| fs::canonicalize(other).is_ok_and(|other| other == own))
+    {
+        return Err(Failure::call(format!("{shown} is read by this command; nothing is written over it")));
+    }
+    fs::write(path, bytes).map_err(|error| Failure::call(format!("cannot write {shown}: {error}")))
+}
+
 /// Writes to standard error; that nobody reads it is no reason to fail.
 pub fn say(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
@@ -65,4 +82,21 @@ pub fn colour_out() -> bool {
 /// Colour on standard error.
 pub fn colour_err() -> bool {
     io::stderr().is_terminal() && wants_colour()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_written_over_what_is_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (read, other) = (folder.path().join("part.nc"), folder.path().join("part.txt"));
+        fs::write(&read, "M30").expect("written");
+        let same = folder.path().join(".").join("part.nc");
+        assert!(write_file(&same, b"sheet", &[&other, &read]).is_err());
+        assert_eq!(fs::read(&read).expect("still there"), b"M30");
+        write_file(&other, b"sheet", &[&read]).expect("another file");
+        assert_eq!(fs::read(&other).expect("written"), b"sheet");
+    }
 }

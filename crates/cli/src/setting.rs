@@ -27,6 +27,10 @@ pub fn control_names(folder: Option<&Path>) -> Result<Vec<String>, Failure> {
         }
     }
     names.sort();
+    if names.is_empty() {
+        let folder = folder.display();
+        return Err(Failure::call(format!("{folder}: no folder in it holds a control (control.toml)")));
+    }
     Ok(names)
 }
 
@@ -135,10 +139,15 @@ fn setup_of(arguments: &SettingArguments, common_offsets: bool) -> Result<Setup,
     }
     for text in &arguments.work {
         let (system, axes) = split("work", text)?;
+        let mut said = Vec::new();
         for part in axes.split(',') {
             let part = part.trim();
             match part.as_bytes().first() {
                 Some(letter @ b'A'..=b'Z') => {
+                    if said.contains(letter) {
+                        return Err(Failure::call(format!("--work {text}: {} is said twice", char::from(*letter))));
+                    }
+                    said.push(*letter);
                     setup.work.push((system.to_owned(), *letter, number("work", &part[1..])?))
                 }
                 _ => return Err(Failure::call(format!("--work {text}: write G54=X100,Y50,Z-20"))),

@@ -71,7 +71,11 @@ impl Texts {
             // A pipe or device cannot be read at any place: it is a stream like standard input.
             return self.spooled(name, Box::new(file));
         }
-        Ok(self.push(Source { name: name.to_owned(), file, at: 0, rest: None, length: facts.len(), format: None }))
+        let mut head = Vec::new();
+        (&file).take(2).read_to_end(&mut head).map_err(cannot)?;
+        one_byte_a_character(name, &head)?;
+        let at = head.len() as u64;
+        Ok(self.push(Source { name: name.to_owned(), file, at, rest: None, length: facts.len(), format: None }))
     }
 
     /// Opens a file that is shown under another name.
@@ -256,6 +260,16 @@ pub fn readable(characters: &mut Vec<u8>) {
             UNREADABLE => *character = b'?',
             _ => {}
         }
+    }
+}
+
+/// Refuses a text of two bytes a character by its mark: its lines and columns would be counted wrong.
+pub fn one_byte_a_character(name: &str, bytes: &[u8]) -> Result<(), String> {
+    match bytes {
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => {
+            Err(format!("{name}: a text of two bytes a character; save it as plain text first"))
+        }
+        _ => Ok(()),
     }
 }
 

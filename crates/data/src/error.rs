@@ -37,15 +37,20 @@ impl DataError {
     }
 }
 
-impl fmt::Display for DataError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl DataError {
+    /// What is wrong and where, without the word `error`.
+    pub fn statement(&self) -> String {
         let DataError { file, line, column, source, width, message } = self;
         let gutter = line.to_string().len();
-        writeln!(f, "error: {message}")?;
-        writeln!(f, "{:gutter$}--> {file}:{line}:{column}", "")?;
-        writeln!(f, "{:gutter$} |", "")?;
-        writeln!(f, "{line} | {source}")?;
-        write!(f, "{:gutter$} | {:>at$}{:^<more$}", "", "^", "", at = column, more = width - 1)
+        let underline = format!("{:>column$}{:^<more$}", "^", "", more = width - 1);
+        let edge = format!("{:gutter$}", "");
+        format!("{message}\n{edge}--> {file}:{line}:{column}\n{edge} |\n{line} | {source}\n{edge} | {underline}")
+    }
+}
+
+impl fmt::Display for DataError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "error: {}", self.statement())
     }
 }
 

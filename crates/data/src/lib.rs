@@ -7,4 +7,4 @@ mod error;
 mod table;
 
 pub use error::DataError;
-pub use table::{Document, Entry, Table, nearest};
+pub use table::{Document, Entry, Table, nearest, place_of};

@@ -297,6 +297,19 @@ impl<'d, 't> Entry<'d, 't> {
     }
 }
 
+/// The place of a key in a text that has been read: the tables that lead to it, then the key, `_` as good as `-`.
+pub fn place_of(text: &str, path: &[&str]) -> Option<Range<usize>> {
+    let plain = |name: &str| name.replace('_', "-");
+    let mut table = DeTable::parse(text).ok()?.into_inner();
+    let (last, tables) = path.split_last()?;
+    for name in tables {
+        let (_, inner) = table.into_iter().find(|(key, _)| plain(key.get_ref()) == plain(name))?;
+        let DeValue::Table(inner) = inner.into_inner() else { return None };
+        table = inner;
+    }
+    table.into_iter().find(|(key, _)| plain(key.get_ref()) == plain(last)).map(|(key, _)| key.span())
+}
+
 /// The name most like `wanted`, if one is at all like it.
 pub fn nearest<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = wanted.to_lowercase();
@@ -337,6 +350,14 @@ mod tests {
                 "1:1 `sped` is not a known key, perhaps `speed` is meant",
             ]
         );
+    }
+
+    #[test]
+    fn a_key_is_found_by_the_tables_that_lead_to_it() {
+        let text = "[work.G54]\nX = 1\n[switches]\noptional_stop = true\n";
+        assert_eq!(place_of(text, &["work", "G54", "X"]), Some(11..12));
+        assert_eq!(place_of(text, &["switches", "optional-stop"]), Some(28..41));
+        assert_eq!(place_of(text, &["work", "G55", "X"]), None);
     }
 
     #[test]

@@ -72,6 +72,27 @@ impl Control {
     }
 }
 
+impl Control {
+    /// What is wrong, why the machine cares and what to do for the condition or warning of this code, in general: what
+    /// differs from case to case is an ellipsis.
+    pub fn sentences_of(&self, code: &str) -> [String; 3] {
+        let of_alarm = Condition::from_id(code).and_then(|condition| self.sentences.get(condition as usize));
+        let of_warning = || self.warnings.iter().find(|row| row.name == code);
+        let sentences = match of_alarm {
+            Some(row) => [row.what.as_str(), &row.why, &row.help],
+            None => of_warning().map_or([""; 3], |row| [&row.what, &row.why, &row.help]),
+        };
+        sentences.map(in_general)
+    }
+}
+
+/// A sentence without its values.
+fn in_general(text: &str) -> String {
+    let mut parts = text.split('{');
+    let head = parts.next().unwrap_or_default().to_owned();
+    parts.fold(head, |text, part| text + "…" + part.split_once('}').map_or("", |(_, rest)| rest))
+}
+
 /// Puts the word and the numbers into a sentence.
 fn fill(text: &str, alarm: &Alarm, word: &str, axis: Option<(char, bool)>) -> String {
     let mut out = String::with_capacity(text.len() + 16);

@@ -53,15 +53,6 @@ pub struct Group {
     pub origin: Origin,
 }
 
-/// How a text divides into programs.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Grouping {
-    /// Each O word begins a program; one text may hold several.
-    OWords,
-    /// A file is a program.
-    Files,
-}
-
 /// Which group decides what: indices of the groups, found by what their codes mean.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Roles {
@@ -155,8 +146,6 @@ pub struct Control {
     pub combination: Option<Combination>,
     /// How its texts are read.
     pub grammar: Grammar,
-    /// How a text divides into programs.
-    pub grouping: Grouping,
     /// True if the last of several words of one address counts; false if that is refused.
     pub last_word_wins: bool,
     /// Least input increments: nanometres (metric), nanometres (inch), microdegrees.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use data::nearest;
 use tape::{CodeError, Codes};
 
 use crate::control::Control;
@@ -49,7 +50,12 @@ pub(crate) const FROM_AXES: &[&str] = &["fourth-axis"];
 
 fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> FittingError {
     let known: Vec<_> = known.collect();
-    FittingError(format!("there is no {what} `{name}` on this control; it has: {}", known.join(", ")))
+    // The number nearest to a number says nothing.
+    let near = nearest(name, known.iter().copied()).filter(|_| !name.bytes().all(|b| b.is_ascii_digit()));
+    FittingError(match near {
+        Some(near) => format!("there is no {what} `{name}` on this control, perhaps `{near}` is meant"),
+        None => format!("there is no {what} `{name}` on this control; it has: {}", known.join(", ")),
+    })
 }
 
 impl Fitting {
@@ -174,10 +180,17 @@ impl Fitting {
             return Err(unknown("parameter", name, control.parameters.iter().map(|row| row.name.as_str())));
         };
         let row = &control.parameters[index];
-        let wrong = |why: &str| FittingError(format!("parameter {name} = {}: {why}", setting.value));
-        let value = parse_value(&setting.value, row).ok_or_else(|| match row.kind {
-            ParameterKind::Choice => wrong(&format!("it is one of {}", row.values.join(", "))),
-            _ => wrong("this is no value of it"),
+        let bit = setting.bit.map_or_else(String::new, |bit| format!(".{bit}"));
+        let wrong = |why: &str| FittingError(format!("parameter {name}{bit} = {}: {why}", setting.value));
+        let value = parse_value(&setting.value, row).ok_or_else(|| {
+            let values = row.values.join(", ");
+            wrong(&match row.kind {
+                ParameterKind::Bits => {
+                    "it has eight bits, as 0b100, as eight digits D7 to D0, or as a number up to 255".to_owned()
+                }
+                ParameterKind::Length | ParameterKind::Number => "this is no number".to_owned(),
+                ParameterKind::Choice => format!("it is one of {values}"),
+            })
         })?;
         if let Some(bit) = setting.bit {
             if row.kind != ParameterKind::Bits || bit > 7 {
@@ -284,8 +297,8 @@ fn parse_value(text: &str, row: &ParameterRow) -> Option<f64> {
         if text.len() == 8 && text.bytes().all(|b| b == b'0' || b == b'1') {
             return u8::from_str_radix(text, 2).ok().map(f64::from);
         }
-        if text.len() == 8 {
-            // Eight digits are D7 to D0, and one of them is neither 0 nor 1.
+        if text.len() == 8 || text.len() > 1 && text.starts_with('0') {
+            // Digits D7 to D0, of which one is neither 0 nor 1, or some are missing.
             return None;
         }
         return text.parse::<u8>().ok().map(f64::from);

@@ -27,7 +27,7 @@ pub use alarm::AlarmRow;
 pub use builtin::{builtin_controls, builtin_files};
 pub use combination::{Combination, Written, check_combination};
 pub use control::{
-    Control, FeedSettings, Group, GroupCodes, GroupRule, Grouping, MOST_GROUPS, NO_CODE, Roles, TapeRules, Tolerances,
+    Control, FeedSettings, Group, GroupCodes, GroupRule, MOST_GROUPS, NO_CODE, Roles, TapeRules, Tolerances,
 };
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use load::{ControlFiles, load_control};

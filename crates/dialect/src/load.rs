@@ -11,10 +11,10 @@ mod user_macro;
 mod warnings;
 
 use data::{DataError, Document, Table};
-use syntax::{Colon, Grammar, LowerCase, Semicolon};
+use syntax::{Colon, Grammar, Grouping, LowerCase, Semicolon};
 
 use crate::combination::Combination;
-use crate::control::{Control, FeedSettings, Group, GroupRule, Grouping, MOST_GROUPS, Roles, TapeRules, Tolerances};
+use crate::control::{Control, FeedSettings, Group, GroupRule, MOST_GROUPS, Roles, TapeRules, Tolerances};
 use crate::meaning::Meaning;
 use crate::member::Member;
 use crate::row::{Certainty, GCode, Origin, ParameterRow};
@@ -93,7 +93,6 @@ struct Head {
     summary: String,
     stock_machine: String,
     grammar: Grammar,
-    grouping: Grouping,
     last_word_wins: bool,
     increments: [i64; 3],
     whole_units: Option<String>,
@@ -114,11 +113,9 @@ struct Head {
     policies: Vec<crate::row::PolicyRow>,
 }
 
-fn grammar(root: &mut Table) -> (Grammar, bool, Grouping) {
+fn grammar(root: &mut Table) -> (Grammar, bool) {
     let read = |t: &mut Table| {
         t.require("block_length");
-        t.integer("sequence_digits");
-        t.integer("program_digits");
         let grammar = Grammar {
             semicolon: t
                 .choice("semicolon", &[("end-of-block", Semicolon::EndOfBlock), ("comment", Semicolon::Comment)])
@@ -129,14 +126,16 @@ fn grammar(root: &mut Table) -> (Grammar, bool, Grouping) {
             colon: t
                 .choice("colon", &[("program-number", Colon::ProgramNumber), ("refuse", Colon::Refuse)])
                 .unwrap_or_default(),
+            grouping: t
+                .choice("programs", &[("o-words", Grouping::OWords), ("files", Grouping::Files)])
+                .unwrap_or_default(),
             block_length: t.integer("block_length").and_then(|n| u32::try_from(n).ok()).unwrap_or(u32::MAX),
         };
         let last = t.choice("repeated_word", &[("last-wins", true), ("refuse", false)]).unwrap_or(true);
-        let grouping = t.choice("programs", &[("o-words", Grouping::OWords), ("files", Grouping::Files)]);
-        (grammar, last, grouping.unwrap_or(Grouping::OWords))
+        (grammar, last)
     };
     root.require("grammar");
-    root.table("grammar", read).unwrap_or((Grammar::default(), true, Grouping::OWords))
+    root.table("grammar", read).unwrap_or((Grammar::default(), true))
 }
 
 fn small(value: Option<i64>) -> usize {
@@ -151,7 +150,7 @@ fn head(root: &mut Table, member: &str) -> Head {
     {
         root.error(place, format!("format {format} is not known; this program reads format 1"));
     }
-    let (grammar, last_word_wins, grouping) = grammar(root);
+    let (grammar, last_word_wins) = grammar(root);
     for key in ["increments", "read_ahead", "nesting", "offsets", "cycle"] {
         root.require(key);
     }
@@ -178,10 +177,7 @@ fn head(root: &mut Table, member: &str) -> Head {
     let cycle_codes = root.table("cycle", |t| {
         ["spindle_forward", "spindle_reverse", "spindle_stop", "spindle_orient"].map(|key| small(t.integer(key)) as u32)
     });
-    let base_code = root.table("work", |t| {
-        t.strings("systems");
-        t.string("base")
-    });
+    let base_code = root.table("work", |t| t.string("base"));
     let universal_preset = root.table("displays", |t| {
         t.table("universal_preset", |bit| {
             let number = bit.integer("number").map_or_else(String::new, |number| number.to_string());
@@ -199,7 +195,6 @@ fn head(root: &mut Table, member: &str) -> Head {
         summary: root.required_string("summary"),
         stock_machine: root.required_string("stock_machine"),
         grammar,
-        grouping,
         last_word_wins,
         increments,
         whole_units,
@@ -312,7 +307,6 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         combination: head.combination,
         whole_units,
         grammar: head.grammar,
-        grouping: head.grouping,
         last_word_wins: head.last_word_wins,
         increments: head.increments,
         read_ahead: head.read_ahead,

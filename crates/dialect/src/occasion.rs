@@ -86,12 +86,15 @@ pub struct StateRow {
 }
 
 impl Fitting {
-    fn decide(&self, rule: &GroupRule) -> Option<u8> {
+    /// What a rule makes of a group. A parameter that chooses a code whose option is not fitted chooses nothing.
+    fn decide(&self, control: &Control, rule: &GroupRule) -> Option<u8> {
         let Some((index, bits, rows)) = &rule.parameter else { return rule.row };
         let value = self.bits(*index);
         let choice =
             bits.iter().enumerate().fold(0, |choice, (place, bit)| choice | usize::from(value >> bit & 1) << place);
-        rows.get(choice).copied().unwrap_or(rule.row)
+        let chosen = rows.get(choice).copied().unwrap_or(rule.row);
+        let is_fitted = |row: u8| control.g_codes.get(usize::from(row)).is_some_and(|code| self.has(code.division));
+        if chosen.is_none_or(is_fitted) { chosen } else { rule.row }
     }
 
     /// Every group's state at power-on.
@@ -109,7 +112,7 @@ impl Fitting {
                 Occasion::EmergencyStop => &group.emergency_stop,
                 Occasion::ProgramEnd => &group.program_end,
             };
-            if let Some(row) = self.decide(rule) {
+            if let Some(row) = self.decide(control, rule) {
                 codes.0[index] = row;
             }
         }

@@ -32,23 +32,6 @@ impl Control {
         counts(number, self.increments[2], DEGREE, address.rotary)
     }
 
-    /// A word of an axis, nanometres or microdegrees.
-    ///
-    /// # Errors
-    /// The value lies outside the address's range.
-    pub fn axis_value(
-        &self,
-        address: &Address,
-        number: Decimal,
-        units: UnitSystem,
-        coarse: i64,
-    ) -> Result<i64, Refused> {
-        match address.kind {
-            AddressKind::RotaryAxis => self.angle(address, number),
-            _ => self.length(address, number, units, coarse),
-        }
-    }
-
     /// A word as a whole number.
     ///
     /// # Errors

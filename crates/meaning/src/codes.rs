@@ -75,46 +75,8 @@ impl Reading<'_> {
             self.next.miscellaneous = code;
             self.command.stops_reading |= row.stops_read_ahead;
             let after = self.setting.facts.codes.m_after_motion.contains(&code);
-            match row.meaning {
-                // The program's end in the same block is stronger than a stop, in either order.
-                MMeaning::ProgramStop if !matches!(self.command.finish, Finish::End(_)) => {
-                    self.command.finish = Finish::ProgramStop;
-                }
-                MMeaning::ProgramStop => {}
-                MMeaning::OptionalStop => {
-                    if self.command.finish == Finish::Next {
-                        self.command.finish = Finish::OptionalStop;
-                    }
-                    self.command.optional_code = Some(self.command.code_count);
-                }
-                MMeaning::ProgramEnd => self.command.finish = Finish::End(EndKind::M02),
-                MMeaning::TapeEnd => self.command.finish = Finish::End(EndKind::M30),
-                MMeaning::SubprogramCall => {
-                    self.calls_or_returns = true;
-                    flow = self.call(word)?;
-                }
-                MMeaning::InternalCall => {
-                    return Err(self.words.alarm_at(Condition::NotYetBuilt, word).into());
-                }
-                MMeaning::SubprogramEnd => {
-                    self.calls_or_returns = true;
-                    flow = self.subprogram_end()?;
-                }
-                MMeaning::InterruptOff | MMeaning::InterruptOn if !self.setting.fitting.options.program_interrupt => {
-                    let alarm = self.words.alarm_at(Condition::MNotFitted, word);
-                    return Err(alarm.with([f64::from(code), 0.0, 0.0]).into());
-                }
-                MMeaning::InterruptOff => self.next.interrupt = None,
-                MMeaning::InterruptOn => {
-                    self.calls_or_returns = true;
-                    self.interrupt_on(word)?;
-                }
-                MMeaning::BufferingOff => self.next.buffering = false,
-                MMeaning::BufferingOn => self.next.buffering = true,
-                MMeaning::CornerArc => self.next.corner = Corner::Arc,
-                MMeaning::CornerIntersection => self.next.corner = Corner::Intersection,
-                MMeaning::MirrorOn => self.mirror_on(),
-                MMeaning::MirrorOff => self.mirror_off(),
+            if let Some(leads) = self.m_code(row.meaning, code, word)? {
+                flow = leads;
             }
             if row.to_machine {
                 self.push_code(CodeLine::M, code, digits, after, word)?;
@@ -122,6 +84,50 @@ impl Reading<'_> {
         }
         // The program's end is stronger than a call or return in its block.
         Ok(if matches!(self.command.finish, Finish::End(_)) { Flow::Next } else { flow })
+    }
+
+    /// What a code of the control itself does; where the program goes on, if that is its doing.
+    fn m_code(&mut self, meaning: MMeaning, code: u32, word: &syntax::Word) -> Result<Option<Flow>, Refusal> {
+        match meaning {
+            // The program's end in the same block is stronger than a stop, in either order.
+            MMeaning::ProgramStop if !matches!(self.command.finish, Finish::End(_)) => {
+                self.command.finish = Finish::ProgramStop;
+            }
+            MMeaning::ProgramStop => {}
+            MMeaning::OptionalStop => {
+                if self.command.finish == Finish::Next {
+                    self.command.finish = Finish::OptionalStop;
+                }
+                self.command.optional_code = Some(self.command.code_count);
+            }
+            MMeaning::ProgramEnd => self.command.finish = Finish::End(EndKind::M02),
+            MMeaning::TapeEnd => self.command.finish = Finish::End(EndKind::M30),
+            MMeaning::SubprogramCall => {
+                self.calls_or_returns = true;
+                return self.call(word).map(Some);
+            }
+            MMeaning::InternalCall => return Err(self.words.alarm_at(Condition::NotYetBuilt, word).into()),
+            MMeaning::SubprogramEnd => {
+                self.calls_or_returns = true;
+                return self.subprogram_end().map(Some);
+            }
+            MMeaning::InterruptOff | MMeaning::InterruptOn if !self.setting.fitting.options.program_interrupt => {
+                let alarm = self.words.alarm_at(Condition::MNotFitted, word);
+                return Err(alarm.with([f64::from(code), 0.0, 0.0]).into());
+            }
+            MMeaning::InterruptOff => self.next.interrupt = None,
+            MMeaning::InterruptOn => {
+                self.calls_or_returns = true;
+                self.interrupt_on(word)?;
+            }
+            MMeaning::BufferingOff => self.next.buffering = false,
+            MMeaning::BufferingOn => self.next.buffering = true,
+            MMeaning::CornerArc => self.next.corner = Corner::Arc,
+            MMeaning::CornerIntersection => self.next.corner = Corner::Intersection,
+            MMeaning::MirrorOn => self.mirror_on(),
+            MMeaning::MirrorOff => self.mirror_off(),
+        }
+        Ok(None)
     }
 
     /// A code whose meaning is the machine builder's.

@@ -29,10 +29,11 @@ pub(crate) enum Body {
         to: Point,
         alarm: Option<Alarm>,
     },
-    /// Two rapids, with a stop point between them.
+    /// Two rapids; `stops` puts a stop point of SINGLE BLOCK between them.
     Via {
         via: Point,
         to: Point,
+        stops: bool,
     },
     Line {
         to: Point,

@@ -3,7 +3,7 @@
 //! `machine = word + origin of the system in force + common shift (+ length offset on the length axis)`.
 
 use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
-use dialect::{Meaning, UnitChangeOffsets};
+use dialect::Meaning;
 
 use crate::block::Reading;
 use crate::command::Body;
@@ -11,7 +11,7 @@ use crate::operation::SetValue;
 use crate::setting::Setting;
 use crate::state::State;
 
-/// The axis on which the tool length offset acts, whatever the plane.
+/// The axis of the spindle: the tool length offset acts on it and cycles drill along it, whatever the plane.
 pub const LENGTH_AXIS: u8 = b'Z';
 
 impl Setting {
@@ -83,18 +83,13 @@ impl Reading<'_> {
 
     /// A stored offset as it counts in the unit in force: policy `unit-change-offsets`.
     pub fn offset(&self, stored: Option<f64>) -> Option<f64> {
-        let keeps_digits = self.setting.fitting.policies.unit_change_offsets == UnitChangeOffsets::Keep;
-        let [metric, inch, _] = self.control().increments;
-        stored.map(|value| match self.units {
-            UnitSystem::Inch if keeps_digits => value / metric as f64 * inch as f64,
-            _ => value,
-        })
+        stored.map(|value| self.setting.offset_in(value, self.units == UnitSystem::Inch))
     }
 
     /// G92: the present position gets the given coordinates; nothing moves.
     ///
-    /// Sets the base system and selects it (policy `g92-system = base`), or shifts all systems alike (`all`). With
-    /// #6005 D5 the UNIVERSAL display is preset too.
+    /// Sets the base system and selects it (policy `g92-system = base`), or shifts all systems alike (`all`). A
+    /// parameter can have the UNIVERSAL display preset too.
     pub fn set_coordinates(&mut self) -> Result<(), Alarm> {
         let control = self.control();
         let all_systems = self.setting.fitting.policies.g92_system == dialect::G92System::All;

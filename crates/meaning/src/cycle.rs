@@ -23,6 +23,7 @@ pub(crate) mod pattern;
 use base::{Condition, Point, UnitSystem};
 use dialect::Meaning;
 
+use crate::coordinate::LENGTH_AXIS;
 use crate::operation::{Feed, RapidKind};
 use crate::word::Words;
 use pattern::Places;
@@ -72,6 +73,13 @@ pub(crate) struct Holes {
     pub rapid: RapidKind,
 }
 
+impl Holes {
+    /// The way into the hole: 1 or -1 along the drilling axis.
+    fn down(&self) -> f64 {
+        if self.bottom < self.r { -1.0 } else { 1.0 }
+    }
+}
+
 /// How far the work in one hole is.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Cursor {
@@ -85,6 +93,14 @@ impl Cursor {
         let phase = self.phase;
         self.phase += 1;
         phase
+    }
+
+    /// Cuts by Q from a level, to the bottom at most; true if it is reached.
+    fn cut(&mut self, holes: &Holes, from: f64) -> bool {
+        let next = from + holes.down() * holes.peck;
+        let reached = (next - holes.bottom) * holes.down() >= 0.0;
+        self.depth = if reached { holes.bottom } else { next };
+        reached
     }
 }
 
@@ -157,7 +173,7 @@ pub(crate) fn next_step(cycle: Meaning, holes: &Holes, at: &mut Cursor) -> Step 
     CYCLES.iter().find(|(meaning, _)| *meaning == cycle).map_or(Step::Done, |(_, step)| step(holes, at))
 }
 
-/// True if the tool goes to the R level before the cycle's own steps; back boring goes there by itself, beside the hole.
+/// True if the tool goes to the R level before the cycle's own steps; back boring goes there by itself, off the hole.
 pub(crate) fn begins_at_r(cycle: Meaning) -> bool {
     cycle != Meaning::BackBore
 }
@@ -189,36 +205,30 @@ pub(crate) fn store_shift(
     Ok(())
 }
 
-/// Takes the block's R, Z, Q and P (if `takes_dwell`) into the cycle's data.
+/// Takes the block's R, Z and Q into the cycle's data.
 ///
-/// `initial` is the initial level in program coordinates. In incremental mode R counts from the initial level and Z from the R level; both are kept as absolute levels.
+/// `initial` is the initial level in program coordinates. In incremental mode R counts from the initial level and Z
+/// from the R level; both are kept as absolute levels.
 pub(crate) fn store(
     words: &Words,
     control: &dialect::Control,
     units: UnitSystem,
     absolute: bool,
-    takes_dwell: bool,
     initial: f64,
     data: &mut CycleData,
 ) -> Result<(), base::Alarm> {
     if let Some(r) = words.length(control, b'R', units)? {
         data.r = Some(if absolute { r } else { initial + r });
     }
-    if let Some(z) = words.length(control, b'Z', units)? {
+    if let Some(z) = words.length(control, LENGTH_AXIS, units)? {
         data.bottom = match (absolute, data.r) {
             (true, _) => Some(z),
             (false, Some(r)) => Some(r + z),
-            (false, None) => return Err(words.alarm(Condition::CycleLevelMissing, b'Z')),
+            (false, None) => return Err(words.alarm(Condition::CycleLevelMissing, LENGTH_AXIS)),
         };
     }
     if let Some(q) = words.length(control, b'Q', units)? {
         data.peck = q.abs();
-    }
-    if takes_dwell
-        && words.has(b'P')
-        && let Some(seconds) = words.seconds(control, b'P')?
-    {
-        data.dwell = seconds;
     }
     Ok(())
 }

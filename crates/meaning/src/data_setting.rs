@@ -3,8 +3,8 @@
 //! It acts when the block is read, ahead of the blocks still being executed, and moves nothing: an offset counts from
 //! the next block that calls for it, an origin from the next block read.
 
-use base::{AXES, Alarm, Condition, Point, UnitSystem};
-use dialect::{Meaning, UnitChangeOffsets};
+use base::{AXES, Alarm, AxisSet, Condition, Point, UnitSystem};
+use dialect::{GCode, Meaning, UnitChangeOffsets};
 
 use crate::block::Reading;
 use crate::command::Body;
@@ -57,14 +57,12 @@ impl Reading<'_> {
         };
         let before = self.offset(self.setting.memory.length(number)).unwrap_or(0.0);
         let value = if self.absolute { value } else { before + value };
-        let [metric, inch, _] = control.increments.map(|increment| increment as f64);
-        let unit = if self.units == UnitSystem::Inch { inch / metric } else { 1.0 };
-        let limit = self.setting.offset_limit(self.units == UnitSystem::Inch);
+        let inch = self.units == UnitSystem::Inch;
+        let limit = self.setting.offset_limit(inch);
         if value.abs() > limit {
             return Err(self.words.alarm(Condition::OffsetRange, b'R').with([value / 1e6, limit / 1e6, 0.0]));
         }
-        let keeps_digits = self.setting.fitting.policies.unit_change_offsets == UnitChangeOffsets::Keep;
-        let stored = if keeps_digits { value / unit } else { value };
+        let stored = self.setting.offset_stored(value, inch);
         self.command.write = Some(DataWrite::Offset { number, value: stored });
         self.command.body = Body::Set(SetValue::Offset { number, value: value / 1e6 }, None);
         Ok(())
@@ -86,23 +84,14 @@ impl Reading<'_> {
             self.check_origin(axis, origin[axis])?;
         }
         self.command.write = Some(DataWrite::Work { system, origin });
-        let rows = &self.setting.control.g_codes;
-        let row = rows.iter().position(|row| row.meaning == Meaning::WorkSystem && u32::from(row.number) == number);
-        let origin = self.setting.to_mm(&origin);
-        self.command.body = Body::Set(SetValue::WorkOrigin { system: row.unwrap_or(0) as u8, axes, origin }, None);
+        self.command.body = Body::Set(self.setting.work_origin(system, axes, &origin), None);
         Ok(())
     }
 
     /// An origin that has grown beyond what a word of its axis can hold is refused.
     fn check_origin(&self, axis: usize, counts: f64) -> Result<(), Alarm> {
         let Some(facts) = self.setting.facts.axes.get(axis) else { return Ok(()) };
-        let Some(address) = self.setting.control.address(facts.letter) else { return Ok(()) };
-        let (range, unit) = match (facts.rotary, self.units) {
-            (true, _) => (address.rotary, 1e6),
-            (false, UnitSystem::Metric) => (address.metric, 1e6),
-            (false, UnitSystem::Inch) => (address.inch, base::units::NM_PER_INCH as f64),
-        };
-        let limit = range[1] * unit;
+        let limit = self.setting.origin_limit(axis, self.units == UnitSystem::Inch);
         if counts.abs() <= limit {
             return Ok(());
         }
@@ -111,6 +100,40 @@ impl Reading<'_> {
 }
 
 impl Setting {
+    /// How far the origin of a work system may lie from machine zero, counts: what a word of its axis can hold.
+    pub(crate) fn origin_limit(&self, axis: usize, inch: bool) -> f64 {
+        let address = self.facts.axes.get(axis).and_then(|facts| Some((facts, self.control.address(facts.letter)?)));
+        match address {
+            None => f64::INFINITY,
+            Some((facts, address)) if facts.rotary => address.rotary[1] * 1e6,
+            Some((_, address)) if inch => address.inch[1] * base::units::NM_PER_INCH as f64,
+            Some((_, address)) => address.metric[1] * 1e6,
+        }
+    }
+
+    /// The origin of a work system (index from 0) as it is told.
+    pub(crate) fn work_origin(&self, system: usize, axes: AxisSet, origin: &Point) -> SetValue {
+        let is_it = |row: &GCode| row.meaning == Meaning::WorkSystem && usize::from(row.number) == system + 1;
+        let row = self.control.g_codes.iter().position(is_it).unwrap_or(0);
+        SetValue::WorkOrigin { system: row as u8, axes, origin: self.to_mm(origin) }
+    }
+
+    /// A stored offset as it counts in the unit in force: policy `unit-change-offsets`.
+    pub(crate) fn offset_in(&self, stored: f64, inch: bool) -> f64 {
+        let [metric, per_inch, _] = self.control.increments;
+        if inch && self.keeps_digits() { stored / metric as f64 * per_inch as f64 } else { stored }
+    }
+
+    /// What is stored of an offset that counts so much in the unit in force.
+    pub(crate) fn offset_stored(&self, value: f64, inch: bool) -> f64 {
+        let [metric, per_inch, _] = self.control.increments;
+        if inch && self.keeps_digits() { value / per_inch as f64 * metric as f64 } else { value }
+    }
+
+    fn keeps_digits(&self) -> bool {
+        self.fitting.policies.unit_change_offsets == UnitChangeOffsets::Keep
+    }
+
     /// The largest offset, nanometres: as many least increments in inch input as in metric.
     pub(crate) fn offset_limit(&self, inch: bool) -> f64 {
         let [metric, per_inch, _] = self.control.increments;

@@ -1,11 +1,13 @@
 //! G04: a pause.
 
-use base::{Alarm, Condition};
+use base::{Alarm, Condition, Decimal};
+use dialect::DwellVariable;
 
 use crate::block::Reading;
 use crate::command::Body;
 use crate::operation::Dwell;
 use crate::record::ReadAs;
+use crate::user_macro::number::with_point;
 
 /// Bits of the parameter for dwells under feed per revolution: they count turns; a plain number counts whole turns.
 const IN_TURNS: u8 = 1;
@@ -20,7 +22,7 @@ impl Reading<'_> {
             return Err(self.words.alarm(Condition::AddressUnavailable, b'X'));
         }
         let letter = if self.words.has(b'P') { b'P' } else { b'X' };
-        let (number, address) = match (self.words.number(letter)?, control.address(b'P')) {
+        let (number, address) = match (self.dwell_number(letter)?, control.address(b'P')) {
             (Some(number), Some(address)) => (number, address),
             _ => {
                 self.command.body = Body::Dwell(Dwell::Seconds(0.0));
@@ -28,22 +30,30 @@ impl Reading<'_> {
             }
         };
         let unit = self.setting.fitting.parameter_if_any(control.feeds.dwell) as u8;
-        let dwell = if unit & IN_TURNS != 0 && self.is_per_revolution() {
-            control
-                .dwell_turns(address, number, unit & WHOLE_TURNS != 0)
-                .map(|turns| Dwell::Revolutions { turns, rpm: 0.0 })
+        let mut dwell = if unit & IN_TURNS != 0 && self.is_per_revolution() {
+            let turns = control.dwell_turns(address, number, unit & WHOLE_TURNS != 0);
+            let turns = turns.map_err(|(condition, values)| self.words.alarm(condition, letter).with(values))?;
+            self.words.note(letter, ReadAs::Turns, turns);
+            Dwell::Revolutions { turns, rpm: 0.0 }
         } else {
-            control.dwell_seconds(address, number).map(Dwell::Seconds)
+            Dwell::Seconds(self.words.seconds(control, letter, number)?)
         };
-        let mut dwell = dwell.map_err(|(condition, values)| self.words.alarm(condition, letter).with(values))?;
-        match dwell {
-            Dwell::Seconds(seconds) => self.words.note(letter, ReadAs::Seconds, seconds),
-            Dwell::Revolutions { turns, .. } => self.words.note(letter, ReadAs::Turns, turns),
-        }
         if let Dwell::Revolutions { rpm, .. } = &mut dwell {
             *rpm = self.spindle_rpm().map_err(|condition| self.words.alarm(condition, letter))?;
         }
         self.command.body = Body::Dwell(dwell);
         Ok(())
+    }
+
+    /// The number of a dwell's word; from a variable as if written with a point (policy `dwell-variable`).
+    pub fn dwell_number(&self, letter: u8) -> Result<Option<Decimal>, Alarm> {
+        let number = self.words.number(letter)?;
+        let value = self.word_values.get(self.words.index(letter)).filter(|value| !value.is_nan());
+        Ok(match value {
+            Some(&value) if self.setting.fitting.policies.dwell_variable == DwellVariable::Seconds => {
+                Some(with_point(value))
+            }
+            _ => number,
+        })
     }
 }

@@ -170,8 +170,8 @@ impl Expansion {
             (Body::Checked { to, .. }, 0) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),
             (Body::Checked { alarm: Some(alarm), .. }, 1) => Some(Act::Alarm(*alarm)),
             (Body::Circle(cut), phase) => cut.piece(phase),
-            (Body::Via { via, .. }, 0) => {
-                out.stop_point = true;
+            (Body::Via { via, stops, .. }, 0) => {
+                out.stop_point = *stops;
                 Some(Act::Rapid { to: mm(via), kind: RapidKind::Checked })
             }
             (Body::Via { to, .. }, 1) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),

@@ -1,5 +1,5 @@
-//! M90 and M91: program interrupt. While it is on, the interrupt input ends the block that runs, drops its rest and what
-//! was read ahead, and the program that said M91 goes on at its block P.
+//! M90 and M91: program interrupt. While it is on, the interrupt input ends the block that runs, drops its rest and
+//! what was read ahead, and the program that said M91 goes on at its block P.
 
 use base::{Condition, Point};
 use syntax::Word;
@@ -19,6 +19,13 @@ pub struct Interrupt {
     pub(crate) depth: usize,
 }
 
+impl Interrupt {
+    /// The line on which the program goes on.
+    pub fn line(&self) -> u64 {
+        self.found.cursor.line
+    }
+}
+
 impl Reading<'_> {
     /// M91 P: the block is looked for at once, so that a missing one is found before the input turns on.
     pub fn interrupt_on(&mut self, word: &Word) -> Result<(), Refusal> {
@@ -29,17 +36,9 @@ impl Reading<'_> {
         let (source, head) = (frame.source, frame.head);
         let program = self.words.place.program;
         let target = Target::Sequence { source, program, head, from: self.words.block.next, number };
-        match self.calls.lookup(&target) {
-            None => Err(Refusal::Locate(target)),
-            Some(None) => {
-                let values = [f64::from(number), 0.0, 0.0];
-                Err(self.words.alarm(Condition::SequenceNotFound, b'P').with(values).into())
-            }
-            Some(Some(found)) => {
-                self.next.interrupt = Some(Interrupt { found, depth: self.calls.frames.len() });
-                Ok(())
-            }
-        }
+        let found = self.locate(target, b'P')?;
+        self.next.interrupt = Some(Interrupt { found, depth: self.calls.frames.len() });
+        Ok(())
     }
 }
 

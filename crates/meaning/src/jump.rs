@@ -24,6 +24,18 @@ pub(crate) enum Target {
     LoopEnd { source: SourceId, from: Cursor, number: u8 },
 }
 
+impl Target {
+    /// What is missing where it is nowhere, and the number that was looked for.
+    pub fn missing(&self) -> (Condition, [f64; 3]) {
+        let (condition, number) = match *self {
+            Target::Program { number, .. } => (Condition::ProgramNotFound, number),
+            Target::Sequence { number, .. } => (Condition::SequenceNotFound, number),
+            Target::LoopEnd { number, .. } => (Condition::MacroLoopPair, u32::from(number)),
+        };
+        (condition, [f64::from(number), 0.0, 0.0])
+    }
+}
+
 /// Where a target is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Found {
@@ -194,6 +206,18 @@ impl Calls {
 }
 
 impl Reading<'_> {
+    /// Where a target is that the word of a letter names.
+    pub fn locate(&self, target: Target, letter: u8) -> Result<Found, Refusal> {
+        match self.calls.lookup(&target) {
+            None => Err(Refusal::Locate(target)),
+            Some(None) => {
+                let (condition, values) = target.missing();
+                Err(self.words.alarm(condition, letter).with(values).into())
+            }
+            Some(Some(found)) => Ok(found),
+        }
+    }
+
     /// M98: the program P, L times.
     pub fn call(&mut self, word: &Word) -> Result<Flow, Refusal> {
         let control = self.control();
@@ -205,33 +229,16 @@ impl Reading<'_> {
             let levels = self.calls.levels as f64;
             return Err(self.words.alarm_at(Condition::NestingTooDeep, word).with([levels, 0.0, 0.0]).into());
         }
-        let target = Target::Program { number, from: self.words.place.source };
-        match self.calls.lookup(&target) {
-            None => Err(Refusal::Locate(target)),
-            Some(None) => {
-                let values = [f64::from(number), 0.0, 0.0];
-                Err(self.words.alarm(Condition::ProgramNotFound, b'P').with(values).into())
-            }
-            Some(Some(found)) => {
-                let entry = self.entry(found)?;
-                Ok(Flow::Call { found, entry, repeats })
-            }
-        }
+        let found = self.locate(Target::Program { number, from: self.words.place.source }, b'P')?;
+        Ok(Flow::Call { found, entry: self.entry(found)?, repeats })
     }
 
     /// The block with which a called program begins: its first one, or that of Q.
     fn entry(&self, found: Found) -> Result<Cursor, Refusal> {
         let Some(number) = self.words.count(self.control(), b'Q')? else { return Ok(found.cursor) };
         let Found { source, program, cursor, .. } = found;
-        let target = Target::Sequence { source, program, head: cursor, from: cursor, number };
-        match self.calls.lookup(&target) {
-            None => Err(Refusal::Locate(target)),
-            Some(None) => {
-                let values = [f64::from(number), 0.0, 0.0];
-                Err(self.words.alarm(Condition::SequenceNotFound, b'Q').with(values).into())
-            }
-            Some(Some(entry)) => Ok(entry.cursor),
-        }
+        let entry = self.locate(Target::Sequence { source, program, head: cursor, from: cursor, number }, b'Q')?;
+        Ok(entry.cursor)
     }
 
     /// M99: back to the caller, after the call or at its block P; in the main program to its head or its block P.
@@ -245,15 +252,7 @@ impl Reading<'_> {
         };
         let from = if levels > 1 { goal.cursor } else { self.words.block.next };
         let Frame { source, program, head, .. } = *goal;
-        let target = Target::Sequence { source, program, head, from, number };
-        match self.calls.lookup(&target) {
-            None => Err(Refusal::Locate(target)),
-            Some(None) => {
-                let values = [f64::from(number), 0.0, 0.0];
-                Err(self.words.alarm(Condition::SequenceNotFound, b'P').with(values).into())
-            }
-            Some(Some(found)) if levels > 1 => Ok(Flow::Return(Some(found))),
-            Some(Some(found)) => Ok(Flow::Jump(found)),
-        }
+        let found = self.locate(Target::Sequence { source, program, head, from, number }, b'P')?;
+        Ok(if levels > 1 { Flow::Return(Some(found)) } else { Flow::Jump(found) })
     }
 }

@@ -51,6 +51,7 @@ mod wording;
 
 pub use command::{Command, CycleLevels, Finish};
 pub use coordinate::LENGTH_AXIS;
+pub use cycle::Spindle;
 pub use facts::{AxisFacts, CodeRules, MachineFacts, Memory, OffsetTable, Switches};
 pub use interpreter::Interpreter;
 pub use interrupt::Interrupt;
@@ -63,6 +64,7 @@ pub use pull::{Answer, Barrier, BarrierKind, Pull, Quantity, StaleBarrier};
 pub use record::{ReadAs, StatementRead, StatementRuns, WordsRead};
 pub use reference_point::ReferenceData;
 pub use state::{Corner, FeedWord, State};
+pub use stroke::StrokeBox;
 pub use supply::WINDOW;
 pub use transform::Transform;
 pub use unknown::{Unknown, letter_bit};

@@ -6,6 +6,7 @@ use dialect::{ArcWithoutCentre, Meaning, PositionOffsetAbsolute, PositionOffsetA
 use crate::arc::{ArcWords, solve};
 use crate::block::Reading;
 use crate::command::Body;
+use crate::coordinate::LENGTH_AXIS;
 use crate::operation::{Plane, RapidKind, Side};
 use crate::position_offset::PositionOffset;
 
@@ -96,7 +97,7 @@ impl Reading<'_> {
                 via[axis] -= self.setting.facts.axes.get(axis).map_or(0.0, |facts| facts.approach);
             }
         }
-        self.command.body = Body::Via { via, to };
+        self.command.body = Body::Via { via, to, stops: false };
         self.rapid_kind = RapidKind::Checked;
     }
 
@@ -167,7 +168,7 @@ impl Reading<'_> {
         if self.length_change != 0.0 && (has_center || has_radius || !self.axes_named()?.is_empty()) {
             return Err(self.words.alarm(Condition::LengthOffsetWithArc, b'H'));
         }
-        let axes = plane.letters().map(|letter| self.setting.facts.axis(letter));
+        let axes = plane.letters().map(|letter| self.arc_axis(letter));
         let [Some(u), Some(v)] = axes else { return Err(self.motion_alarm(Condition::AddressUnavailable)) };
         let (to, moved) = self.targets()?;
         let units = self.units;
@@ -204,22 +205,9 @@ impl Reading<'_> {
             radius_tolerance: self.setting.fitting.parameter(tolerances.arc_radius) * 1e6,
             end_limit: self.setting.fitting.parameter(tolerances.arc_end) * 1e6,
         };
-        let letter = if radius.is_some() {
-            b'R'
-        } else if self.words.has(letters[0]) {
-            letters[0]
-        } else {
-            letters[1]
-        };
-        let solved = solve(words).map_err(|(condition, values)| match condition {
-            Condition::ArcWithoutCentre => self.motion_alarm(condition),
-            Condition::ArcEndOff => {
-                let end = plane.letters();
-                self.words.alarm(condition, if self.words.has(end[0]) { end[0] } else { end[1] }).with(values)
-            }
-            _ => self.words.alarm(condition, letter).with(values),
-        })?;
-        let Some(solved) = solved else { return Ok(()) };
+        let solved = solve(words)
+            .map_err(|(condition, values)| self.arc_alarm(condition, plane, [u, v], has_radius).with(values));
+        let Some(solved) = solved? else { return Ok(()) };
         let feed = self.feed()?;
         self.command.body = Body::Arc {
             to,
@@ -233,6 +221,30 @@ impl Reading<'_> {
         self.now_known = self.now_known.or(moved);
         self.next.machine = to;
         Ok(())
+    }
+
+    /// The alarm for an arc that cannot be, at the word that says so.
+    fn arc_alarm(&self, condition: Condition, plane: Plane, ends: [usize; 2], by_radius: bool) -> Alarm {
+        let first_of = |[one, other]: [u8; 2]| if self.words.has(one) { one } else { other };
+        match condition {
+            Condition::ArcWithoutCentre => self.motion_alarm(condition),
+            Condition::ArcEndOff => {
+                let letters = ends.map(|axis| self.setting.facts.axes.get(axis).map_or(b'X', |facts| facts.letter));
+                self.words.alarm(condition, first_of(letters))
+            }
+            _ if by_radius => self.words.alarm(condition, b'R'),
+            _ => self.words.alarm(condition, first_of(plane.centre_letters())),
+        }
+    }
+
+    /// The axis of one of the plane's letters: the linear fourth axis along it (U, V, W along X, Y, Z) takes its place
+    /// where it stands in the block alone.
+    fn arc_axis(&self, letter: u8) -> Option<usize> {
+        let facts = &self.setting.facts;
+        let along = facts.axis(letter - (b'X' - b'U'));
+        let is_linear = |axis: &usize| facts.axes.get(*axis).is_some_and(|facts| !facts.rotary);
+        let alone = self.words.has(letter - (b'X' - b'U')) && !self.words.has(letter);
+        along.filter(is_linear).filter(|_| alone).or_else(|| facts.axis(letter))
     }
 
     /// Another axis beside the plane's two makes a helix, which is an option.
@@ -256,13 +268,14 @@ impl Reading<'_> {
         Ok(value + self.position_offset.map_or(0.0, |offset| offset.change(value, minus)))
     }
 
-    /// The distances of positioning from one side, where the motion code in force asks for them; none along Z.
+    /// The distances of positioning from one side, where the motion code in force asks for them; none along the axis of
+    /// the spindle.
     pub fn cycle_approach(&self) -> Point {
         let mut approach = [0.0; AXES];
         let motion = self.setting.control.in_force(&self.next.groups, self.setting.control.roles.motion);
         if motion == Some(Meaning::OneSidedPositioning) {
             for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
-                if facts.letter != b'Z' {
+                if facts.letter != LENGTH_AXIS {
                     approach[axis] = facts.approach;
                 }
             }

@@ -11,8 +11,7 @@ pub(crate) use follow::After;
 use std::collections::VecDeque;
 
 use base::{AXES, Alarm, AxisSet, Condition, Place, SourceId, Span};
-use dialect::Grouping;
-use syntax::{Block, Cursor, Value};
+use syntax::{Block, Cursor};
 
 use crate::block::{Flow, read_meaning};
 use crate::command::{Body, Command, Finish, MOST_CODES};
@@ -243,7 +242,9 @@ impl Reader {
     fn search_on(&mut self) -> Option<Read> {
         let search = self.search.as_mut()?;
         let grammar = self.setting.control.grammar;
-        match search.advance(&mut self.supply, &grammar, &mut self.names, &mut self.block, &mut self.calls.index) {
+        let block_delete = self.setting.switches.block_delete;
+        let (supply, index) = (&mut self.supply, &mut self.calls.index);
+        match search.advance(supply, &grammar, &mut self.names, &mut self.block, index, block_delete) {
             Progress::NeedBytes { source, offset } => Some(self.need(source, offset)),
             Progress::NeedProgram { number } => Some(Read::NeedProgram { number }),
             Progress::Done(found) => {
@@ -263,14 +264,11 @@ impl Reader {
     }
 
     fn begins_program(&self) -> bool {
-        self.setting.control.grouping == Grouping::OWords
-            && self.block.words.first().is_some_and(|word| word.letter == b'O')
+        self.block.begins_program(&self.setting.control.grammar)
     }
 
     fn name_program(&mut self) {
-        if let Some(Value::Number(number)) = self.block.words.first().map(|word| word.value)
-            && let Some(number) = number.integer().and_then(|number| u32::try_from(number).ok())
-        {
+        if let Some(number) = self.block.whole_number(b'O').and_then(|number| u32::try_from(number).ok()) {
             let program = self.names.numbered(number);
             if let Some(frame) = self.calls.frames.last_mut() {
                 frame.program = program;

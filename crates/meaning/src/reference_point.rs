@@ -66,7 +66,7 @@ impl Reading<'_> {
         // Where the reference point is, the axis is known again, whatever came before.
         self.now_known = self.now_known.or(axes);
         self.next.machine = to;
-        self.command.body = Body::Via { via, to };
+        self.command.body = Body::Via { via, to, stops: true };
         Ok(axes)
     }
 
@@ -86,7 +86,7 @@ impl Reading<'_> {
         }
         self.now_known = self.now_known.or(axes);
         self.next.machine = to;
-        self.command.body = Body::Via { via, to };
+        self.command.body = Body::Via { via, to, stops: true };
         Ok(())
     }
 

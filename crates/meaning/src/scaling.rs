@@ -35,7 +35,7 @@ impl Reading<'_> {
             return Err(self.group_alarm(Condition::ScalingFactorMissing, self.control().roles.scaling));
         };
         if thousandths == 0 {
-            return Err(self.words.alarm(Condition::ValueOutOfRange, b'P').with([0.0, 1.0, 99_999.0]));
+            return Err(self.words.below(self.control(), b'P', 0, 1));
         }
         self.next.transform.scaled = AxisSet::NONE;
         let mut scaled = AxisSet::NONE;

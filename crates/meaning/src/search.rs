@@ -1,18 +1,18 @@
 //! A search for a jump's target: read block by block through the texts, as far as they are at hand.
 
 use base::{ProgramId, SourceId};
-use syntax::{Block, Cursor, Grammar, Outcome, Value, Word, read_block};
+use syntax::{Block, Cursor, Grammar, Outcome, read_block};
 
+use crate::block::cut_by_block_delete;
 use crate::jump::{Found, LoopsAround, ProgramIndex, Target};
 use crate::program::Names;
 use crate::supply::Supply;
 use crate::user_macro::statement::loop_mark;
 
 /// The program that begins with this block, if one does.
-fn program_of(source: SourceId, names: &mut Names, block: &Block) -> Option<(u32, Found)> {
-    let first = block.words.first().filter(|word| word.letter == b'O')?;
-    let Value::Number(number) = first.value else { return None };
-    let number = number.integer().and_then(|number| u32::try_from(number).ok())?;
+fn program_of(source: SourceId, names: &mut Names, grammar: &Grammar, block: &Block) -> Option<(u32, Found)> {
+    let number = block.whole_number(b'O').filter(|_| block.begins_program(grammar))?;
+    let number = u32::try_from(number).ok()?;
     Some((number, Found { source, program: names.numbered(number), cursor: block.start, enters: false }))
 }
 
@@ -87,6 +87,7 @@ impl Search {
         names: &mut Names,
         block: &mut Block,
         index: &mut ProgramIndex,
+        block_delete: u16,
     ) -> Progress {
         loop {
             let source = match (self.stage, self.target) {
@@ -101,10 +102,13 @@ impl Search {
                 Outcome::More => return Progress::NeedBytes { source, offset: self.cursor.offset },
                 Outcome::End => true,
                 Outcome::Block => {
+                    // A loop begins and ends where its statements are obeyed.
+                    let (_, cut) = cut_by_block_delete(block, block_delete);
+                    block.statement = block.statement.filter(|statement| statement.extent.at < cut);
                     let tape_end = block.rewind && self.passed;
                     self.passed |= !block.is_empty() && !block.rewind;
                     if let Target::Program { .. } = self.target {
-                        let program = program_of(source, names, block);
+                        let program = program_of(source, names, grammar, block);
                         index.take(program, source, if tape_end { self.cursor } else { block.next }, self.passed);
                     }
                     let from = (block.start.offset - self.cursor.offset) as usize;
@@ -112,13 +116,13 @@ impl Search {
                     if let Some(done) = self.loop_ends(source, block, text) {
                         return Progress::Done(done);
                     }
-                    if let Some(found) = self.matches(source, names, block) {
+                    if let Some(found) = self.matches(source, names, grammar, block) {
                         return Progress::Done(Some(found));
                     }
                     self.pass_loop(block, text);
                     let here = self.cursor;
                     self.cursor = block.next;
-                    tape_end || self.section_ends(here, block)
+                    tape_end || self.section_ends(here, grammar, block)
                 }
             };
             if ended && let Some(done) = self.end_of_text(source, names, index) {
@@ -127,21 +131,15 @@ impl Search {
         }
     }
 
-    fn matches(&self, source: SourceId, names: &mut Names, block: &Block) -> Option<Found> {
-        let first = block.words.iter().find(|word| word.letter == b'O' || word.letter == b'N')?;
-        let number_of = |word: &Word| match word.value {
-            Value::Number(number) => number.integer(),
-            _ => None,
-        };
+    fn matches(&self, source: SourceId, names: &mut Names, grammar: &Grammar, block: &Block) -> Option<Found> {
         match self.target {
             Target::Program { number, .. } => {
-                program_of(source, names, block).filter(|(found, _)| *found == number).map(|(_, found)| found)
+                program_of(source, names, grammar, block).filter(|(found, _)| *found == number).map(|(_, found)| found)
             }
             Target::Sequence { number, program, .. } => {
                 // Behind the O word of the next program a number is that program's; from the head on it is this one's.
-                let own = first.letter == b'N' || self.from_head;
-                let numbered = block.words.iter().find(|word| word.letter == b'N');
-                let is_it = own && numbered.and_then(number_of) == Some(i64::from(number));
+                let own = self.from_head || !block.begins_program(grammar);
+                let is_it = own && block.whole_number(b'N') == Some(i64::from(number));
                 is_it.then_some(Found { source, program, cursor: block.start, enters: self.enters() })
             }
             Target::LoopEnd { .. } => None,
@@ -187,8 +185,8 @@ impl Search {
     }
 
     /// True if a sequence search has left its part of the program.
-    fn section_ends(&self, here: Cursor, block: &Block) -> bool {
-        let next_program = block.words.first().is_some_and(|word| word.letter == b'O');
+    fn section_ends(&self, here: Cursor, grammar: &Grammar, block: &Block) -> bool {
+        let next_program = block.begins_program(grammar);
         let Target::Sequence { head, from, .. } = self.target else {
             return next_program && matches!(self.target, Target::LoopEnd { .. });
         };

@@ -19,11 +19,11 @@ const FACES: [(u8, u8); 3] = [(b'X', b'I'), (b'Y', b'J'), (b'Z', b'K')];
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct StrokeBox {
     /// The axes along which it is known; all of X, Y and Z that the machine has, or none.
-    pub(crate) axes: AxisSet,
+    pub axes: AxisSet,
     /// Lower faces along X, Y, Z.
-    pub(crate) low: [f64; 3],
+    pub low: [f64; 3],
     /// Upper faces.
-    pub(crate) high: [f64; 3],
+    pub high: [f64; 3],
 }
 
 impl StrokeBox {

@@ -97,13 +97,18 @@ impl<'b> Words<'b> {
         self.present
     }
 
+    /// Where in the block the word of this letter stands.
+    pub fn index(&self, letter: u8) -> usize {
+        usize::from(self.by_letter[usize::from(letter - b'A') % 26])
+    }
+
     /// The word of this letter.
     pub fn word(&self, letter: u8) -> Option<&'b Word> {
         let index = self.by_letter[usize::from(letter - b'A') % 26];
         self.block.words.get(usize::from(index)).filter(|_| index != NO_WORD)
     }
 
-    /// The number of a word; a variable in its place is executed by the macro machine, which comes later.
+    /// The number of a word; variables have become numbers before the block is given its meaning.
     pub fn number(&self, letter: u8) -> Result<Option<Decimal>, Alarm> {
         match self.word(letter) {
             None => Ok(None),
@@ -192,14 +197,25 @@ impl<'b> Words<'b> {
             None => Ok(None),
             Some(value) => match u32::try_from(value) {
                 Ok(count) => Ok(Some(count)),
-                Err(_) => Err(self.alarm(Condition::ValueOutOfRange, letter).with([value as f64, 0.0, 9999.0])),
+                Err(_) => Err(self.below(control, letter, value, 0)),
             },
         }
     }
 
-    /// A dwell in seconds.
-    pub fn seconds(&self, control: &Control, letter: u8) -> Result<Option<f64>, Alarm> {
-        let seconds = self.read(control, letter, |address, number| control.dwell_seconds(address, number))?;
-        Ok(seconds.map(|seconds| self.noted(letter, ReadAs::Seconds, seconds, 1.0)))
+    /// The alarm for a whole number that its address allows and that is too small for this use of it.
+    pub fn below(&self, control: &Control, letter: u8, value: i64, least: i64) -> Alarm {
+        let highest = control.address(letter).map_or(least, |address| address.range[1]);
+        self.alarm(Condition::ValueOutOfRange, letter).with([value as f64, least as f64, highest as f64])
+    }
+
+    /// A number as the seconds of a dwell in the word of this letter.
+    pub fn seconds(&self, control: &Control, letter: u8, number: Decimal) -> Result<f64, Alarm> {
+        let Some(address) = control.address(b'P') else {
+            return Err(self.alarm(Condition::AddressUnavailable, letter));
+        };
+        match control.dwell_seconds(address, number) {
+            Ok(seconds) => Ok(self.noted(letter, ReadAs::Seconds, seconds, 1.0)),
+            Err((condition, values)) => Err(self.alarm(condition, letter).with(values)),
+        }
     }
 }

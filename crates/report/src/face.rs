@@ -1,7 +1,10 @@
 //! The faces of a diagnostic: for people at a terminal, as JSON, as SARIF, as annotations of a forge.
 
+use std::collections::BTreeMap;
+
 use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
 use base::{Diagnostic, Label, Severity};
+use dialect::Control;
 
 use crate::excerpt::Excerpt;
 use crate::json::JsonLine;
@@ -27,10 +30,8 @@ pub fn begin(format: Format) -> &'static str {
     match format {
         Format::Json => "[",
         Format::Sarif => concat!(
-            "{\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\"version\":\"2.1.0\",\"runs\":[{\"tool\":",
-            "{\"driver\":{\"name\":\"cyclestart\",\"version\":\"",
-            env!("CARGO_PKG_VERSION"),
-            "\"}},\"results\":["
+            "{\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\"version\":\"2.1.0\",",
+            "\"runs\":[{\"results\":["
         ),
         Format::Text { .. } | Format::Github => "",
     }
@@ -46,11 +47,50 @@ pub fn separator(format: Format) -> &'static str {
 }
 
 /// What stands after the last diagnostic.
-pub fn end(format: Format) -> &'static str {
+pub fn end(format: Format, rules: &Rules) -> String {
     match format {
-        Format::Json => "]\n",
-        Format::Sarif => "]}]}\n",
-        Format::Text { .. } | Format::Github => "",
+        Format::Json => "]\n".to_owned(),
+        Format::Sarif => rules.sarif(),
+        Format::Text { .. } | Format::Github => String::new(),
+    }
+}
+
+/// What was told of, each once by its code: what it is, why the machine cares, what to do.
+#[derive(Debug, Default)]
+pub struct Rules(BTreeMap<&'static str, [String; 3]>);
+
+impl Rules {
+    /// Takes in what a diagnostic of this control tells of.
+    pub fn take_in(&mut self, code: &'static str, control: &Control) {
+        self.0.entry(code).or_insert_with(|| control.sentences_of(code));
+    }
+
+    /// The end of a SARIF log: the tool, with the rules that its results name.
+    fn sarif(&self) -> String {
+        let mut out = b"],\"tool\":".to_vec();
+        let mut tool = JsonLine::begin(&mut out);
+        tool.object("driver", |driver| {
+            driver.text("name", "cyclestart").text("version", env!("CARGO_PKG_VERSION"));
+            let rules = driver.field("rules");
+            rules.push(b'[');
+            for (index, (code, sentences)) in self.0.iter().enumerate() {
+                if index > 0 {
+                    rules.push(b',');
+                }
+                let mut rule = JsonLine::begin(rules);
+                rule.text("id", code);
+                for (name, text) in ["shortDescription", "fullDescription", "help"].into_iter().zip(sentences) {
+                    rule.object(name, |message| {
+                        message.text("text", &sentence(text));
+                    });
+                }
+                rule.end();
+            }
+            rules.push(b']');
+        });
+        tool.end();
+        out.extend_from_slice(b"}]}\n");
+        String::from_utf8_lossy(&out).into_owned()
     }
 }
 

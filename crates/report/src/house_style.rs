@@ -149,7 +149,7 @@ fn parse(bytes: &[u8], characters: &[u8], control: &Control, style: &HouseStyle)
             continue;
         }
         begun |= !block.is_empty();
-        let named = block.words.first().is_some_and(|word| word.letter == b'O');
+        let named = block.begins_program(&control.grammar);
         if named && blocks.iter().any(is_said) {
             program += 1;
         }

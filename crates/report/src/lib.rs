@@ -19,7 +19,7 @@ pub use control_table::{control_list, control_table};
 pub use coverage::{CoveredRow, CoveringCase, coverage, rows_of};
 pub use excerpt::Excerpt;
 pub use explain::{Explanation, Wanted, Watch, Watched, explain, explanation_json, explanation_text};
-pub use face::{Format, begin, end, render, render_with_labels, separator};
+pub use face::{Format, Rules, begin, end, render, render_with_labels, separator};
 pub use house_style::{Difference, Formatted, HouseStyle, Numbering, house_style, same_run};
 pub use json::{JsonLine, push_number};
 pub use paint::Paint;

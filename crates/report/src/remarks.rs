@@ -38,7 +38,7 @@ pub fn header(text: &[u8], grammar: &Grammar) -> Vec<String> {
     let mut found = Vec::new();
     let mut said = 0;
     walk(text, grammar, |block, own| {
-        let names = block.words.first().is_some_and(|word| word.letter == b'O');
+        let names = block.begins_program(grammar);
         said += usize::from(!block.is_empty());
         if said > 1 || (said == 1 && !block.is_empty() && !names) {
             return false;

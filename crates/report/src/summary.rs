@@ -202,6 +202,8 @@ impl Summary {
     pub fn text(&self) -> String {
         let mut out = String::new();
         let end = match (self.end, self.alarm_count) {
+            (Some(EndKind::Text), _) => "ended with its text, without M02 or M30".to_owned(),
+            (Some(EndKind::Loop), _) => "never ends: it goes round for ever with nothing changed".to_owned(),
             (Some(kind), _) => format!("ended with {}", end_name(kind)),
             (None, 0) => "stopped".to_owned(),
             (None, _) => "stopped by an alarm".to_owned(),

@@ -2,7 +2,7 @@
 
 use base::SourceId;
 use meaning::WINDOW;
-use syntax::{Block, Cursor, Grammar, Outcome, Value, read_block};
+use syntax::{Block, Cursor, Grammar, Outcome, read_block};
 use tape::{Codes, Format, recognise};
 
 use crate::library::{Library, LibraryError};
@@ -68,9 +68,8 @@ pub fn programs_in(
             return false;
         }
         begun |= !block.is_empty();
-        let first = block.words.first().filter(|word| word.letter == b'O').map(|word| word.value);
-        if let Some(Value::Number(number)) = first
-            && let Some(number) = number.integer().and_then(|number| u32::try_from(number).ok())
+        let named = block.whole_number(b'O').filter(|_| block.begins_program(grammar));
+        if let Some(number) = named.and_then(|number| u32::try_from(number).ok())
             && !programs.iter().any(|(known, _)| *known == number)
         {
             programs.push((number, block.start));

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use base::{AXES, AxisSet, Point};
+use data::nearest;
 use dialect::{AxisLetter, Control, Fitting, ParameterSetting};
 use machine::MachineFile;
 use meaning::{Memory, OffsetTable, Variables};
@@ -22,6 +23,9 @@ impl std::fmt::Display for ConfigurationError {
 }
 
 impl std::error::Error for ConfigurationError {}
+
+/// The inputs that can be held.
+const INPUTS: &str = "EOP, RWD, skip, interrupt, UI0 to UI31";
 
 /// Signals held by hand; `None` follows the machine's wiring.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -55,9 +59,10 @@ impl Inputs {
             _ => {
                 let number = name.strip_prefix("UI").and_then(|digits| digits.parse::<u32>().ok());
                 let Some(number @ 0..=31) = number else {
-                    return Err(wrong(format!(
-                        "there is no input `{name}`; the inputs are EOP, RWD, skip, interrupt, UI0 to UI31"
-                    )));
+                    return Err(wrong(match nearest(name, ["EOP", "RWD", "skip", "interrupt"].into_iter()) {
+                        Some(near) => format!("there is no input `{name}`, perhaps `{near}` is meant"),
+                        None => format!("there is no input `{name}`; the inputs are {INPUTS}"),
+                    }));
                 };
                 self.interface = if on { self.interface | 1 << number } else { self.interface & !(1 << number) };
             }
@@ -95,6 +100,10 @@ fn wrong(message: impl Into<String>) -> ConfigurationError {
     ConfigurationError(message.into())
 }
 
+fn letter_of(axis: u8) -> String {
+    char::from(axis).to_string()
+}
+
 impl Configuration {
     /// A control on a machine as they come, and the set-ups on top of them, later ones over earlier ones.
     ///
@@ -125,19 +134,24 @@ impl Configuration {
         for setup in setups {
             configuration.apply(setup)?;
         }
-        configuration.check_start()?;
+        configuration.check_start(setups)?;
         configuration.fitting.check_options(&configuration.control).map_err(|error| wrong(error.0))?;
         configuration.fitting.check_tape_codes(&configuration.control).map_err(|error| wrong(error.0))?;
         Ok(configuration)
     }
 
     /// The axes cannot stand where they cannot get to.
-    fn check_start(&self) -> Result<(), ConfigurationError> {
+    fn check_start(&self, setups: &[&Setup]) -> Result<(), ConfigurationError> {
         for (axis, &at) in self.machine.axes.iter().zip(&self.start) {
             let [low, high] = axis.travel;
             if at < low || at > high {
-                let letter = char::from(axis.letter);
-                return Err(wrong(format!("start {letter} = {at} lies outside the axis' travel {low} to {high}")));
+                let letter = letter_of(axis.letter);
+                let message = format!("start {letter} = {at} lies outside the axis' travel {low} to {high}");
+                let said = setups.iter().rfind(|setup| setup.start.iter().any(|&(named, _)| named == axis.letter));
+                return Err(match said {
+                    Some(setup) => setup.refuse(&["start", &letter], message),
+                    None => wrong(message),
+                });
             }
         }
         Ok(())
@@ -215,39 +229,54 @@ impl Configuration {
     pub fn apply(&mut self, setup: &Setup) -> Result<(), ConfigurationError> {
         let control = self.control.clone();
         for (name, fitted) in &setup.options {
-            self.fitting.set_option(&control, name, *fitted).map_err(|error| wrong(error.0))?;
+            let set = self.fitting.set_option(&control, name, *fitted);
+            set.map_err(|error| setup.refuse(&["options", name], error.0))?;
         }
         for (name, value) in &setup.policies {
-            self.fitting.set_policy(&control, name, value).map_err(|error| wrong(error.0))?;
+            let set = self.fitting.set_policy(&control, name, value);
+            set.map_err(|error| setup.refuse(&["policies", name], error.0))?;
         }
         for setting in &setup.parameters {
-            self.fitting.set_parameter(&control, setting).map_err(|error| wrong(error.0))?;
+            let set = self.fitting.set_parameter(&control, setting);
+            set.map_err(|error| setup.refuse(&["parameters", &setting.name], error.0))?;
         }
         for &(column, number, mm) in &setup.offsets {
-            self.set_offset(column, number, mm)?;
+            let set = self.set_offset(column, number, mm);
+            set.map_err(|error| setup.refuse(&[column.table(), &number.to_string()], error.0))?;
         }
         for (system, axis, mm) in &setup.work {
-            self.set_work(system, *axis, *mm)?;
+            let set = self.set_work(system, *axis, *mm);
+            set.map_err(|error| match memory::work_system(&control, &self.memory, system) {
+                Ok(_) => setup.refuse(&["work", system, &letter_of(*axis)], error.0),
+                Err(error) => setup.refuse(&["work", system], error.0),
+            })?;
         }
         for &(letter, mm) in &setup.start {
-            let axis = memory::axis_of(&self.machine, letter)?;
+            let axis = self.axis_in(setup, "start", letter)?;
             self.start[axis] = mm;
         }
         for &(letter, returned) in &setup.returned {
-            let axis = AxisSet::only(memory::axis_of(&self.machine, letter)?);
+            let axis = AxisSet::only(self.axis_in(setup, "returned", letter)?);
             self.not_returned = if returned { self.not_returned.without(axis) } else { self.not_returned.or(axis) };
         }
         for &(letter, at) in &setup.contact {
-            let axis = memory::axis_of(&self.machine, letter)?;
+            let axis = self.axis_in(setup, "contact", letter)?;
             self.contact.push((axis, at));
         }
         for (name, number) in &setup.switches {
-            self.switches.set(name, *number, true).map_err(wrong)?;
+            let set = self.switches.set(name, *number, true);
+            set.map_err(|error| setup.refuse(&["switches", name], error))?;
         }
         for (name, on) in &setup.inputs {
-            self.inputs.set(name, *on)?;
+            self.inputs.set(name, *on).map_err(|error| setup.refuse(&["inputs", name], error.0))?;
         }
         Ok(())
+    }
+
+    /// The axis that a table of the set-up names.
+    fn axis_in(&self, setup: &Setup, table: &str, letter: u8) -> Result<usize, ConfigurationError> {
+        let axis = memory::axis_of(&self.machine, letter);
+        axis.map_err(|error| setup.refuse(&[table, &letter_of(letter)], error.0))
     }
 
     /// Writes an offset, mm.

@@ -95,7 +95,7 @@ impl<L: Library> Operator<L> {
             row.map_or(Value::Null, |row| Value::Text(format!("M{:02}", row.code)))
         };
         Value::object([
-            ("name", Value::text_or_null(self.program_name())),
+            ("name", Value::text_or_null(self.running_name())),
             ("line", Value::Number(session.place().line as f64)),
             ("f", Value::Number(state.feed.nanometres / 1e6)),
             ("s", whole(state.spindle)),
@@ -131,9 +131,15 @@ impl<L: Library> Operator<L> {
             ("held", Value::Truth(session.is_held())),
             ("waiting_for", Value::text_or_null(waiting)),
             ("alarm", Value::text_or_null(alarm.as_deref())),
-            ("program", Value::text_or_null(self.program_name())),
+            ("program", Value::text_or_null(self.running_name())),
             ("line", Value::Number(session.place().line as f64)),
         ])
+    }
+
+    /// The program in which the line being executed stands; the selected one while nothing is executed.
+    fn running_name(&self) -> Option<&str> {
+        let place = self.session.place();
+        if place.line == 0 { self.program_name() } else { Some(self.session.interpreter().program_name(place.program)) }
     }
 
     fn program_name(&self) -> Option<&str> {

@@ -11,9 +11,10 @@ fn wrong(message: String) -> ConfigurationError {
     ConfigurationError(message)
 }
 
-/// A column by its letter: with one common memory H and D name the same cell.
-fn common_or(column: OffsetColumn, common: bool) -> OffsetColumn {
-    if common { OffsetColumn::Common } else { column }
+/// The column of an offset that was named by its number or its letter and number: with one common memory H and D name
+/// the same cell.
+pub(crate) fn named_column(control: &Control, column: OffsetColumn) -> OffsetColumn {
+    if control.common_offsets { OffsetColumn::Common } else { column }
 }
 
 /// Writes an offset, mm.
@@ -44,20 +45,9 @@ pub(crate) fn write_offset(
     }
 }
 
-/// Writes an offset that was named by its number or its letter and number.
-pub(crate) fn write_named_offset(
-    control: &Control,
-    memory: &mut Memory,
-    column: OffsetColumn,
-    number: u32,
-    mm: f64,
-) -> Result<(), ConfigurationError> {
-    write_offset(control, memory, common_or(column, control.common_offsets), number, mm)
-}
-
 /// An offset in mm that was named by its number or its letter and number; `None` if there is none.
 pub(crate) fn read_named_offset(control: &Control, memory: &Memory, column: OffsetColumn, number: u32) -> Option<f64> {
-    let counts = match common_or(column, control.common_offsets) {
+    let counts = match named_column(control, column) {
         OffsetColumn::Common if !control.common_offsets => None,
         OffsetColumn::Radius => memory.radius(number),
         _ => memory.length(number),

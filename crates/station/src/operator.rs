@@ -7,7 +7,7 @@ mod write;
 use std::collections::{BTreeMap, BTreeSet};
 
 use base::{Condition, SourceId};
-use dialect::ModeRow;
+use dialect::{ModeRow, VariableMeaning};
 use machine::{Event, EventKind};
 use syntax::Cursor;
 
@@ -127,7 +127,9 @@ impl<L: Shelf> Operator<L> {
             Action::PowerOn => session.power_on(),
             Action::PowerOff => session.power_off(),
             Action::FeedHold if session.interpreter().executing_state().feed_control & 1 != 0 => {
-                return Ok(Err("the program does not let FEED HOLD act (#3004 bit 0)".to_owned()));
+                let variables = &session.interpreter().control().user_macro;
+                let number = variables.range_of(VariableMeaning::FeedControl).map_or(0, |(from, _)| from);
+                return Ok(Err(format!("the program does not let FEED HOLD act (#{number} bit 0)")));
             }
             Action::FeedHold => session.feed_hold(),
             Action::Reset => session.reset(),
@@ -269,7 +271,7 @@ impl<L: Shelf> Operator<L> {
     fn run(&mut self, until: &Until, tell: &mut dyn FnMut(&mut Session<L>, Said)) -> Result<(), LibraryError> {
         loop {
             if let Until::Line(line) = until
-                && self.session.block_begins().is_some_and(|place| place.line == *line)
+                && self.session.line_begins().is_some_and(|place| place.line == *line)
             {
                 return Ok(());
             }

@@ -80,7 +80,7 @@ pub struct Session<L> {
     /// The block before is done, and nothing of the next one has been executed.
     between_blocks: bool,
     /// The block at whose beginning the operator asked to be told.
-    told: Option<(u64, u64)>,
+    told: Option<(u64, Place)>,
     /// The block of which something has been executed last.
     begun: Option<u64>,
     stopped: bool,
@@ -389,11 +389,24 @@ impl<L: Library> Session<L> {
         let shaped = self.motion.upstream.current();
         // The start of the program is no block; it has the number of the first one.
         // A macro statement has the number of the block behind it, and a place of its own.
-        let block = (shaped.block, shaped.place.block.start);
-        if shaped.place.line == 0 || self.told == Some(block) {
+        let (block, place) = (shaped.block, shaped.place);
+        let is_told = self.told.is_some_and(|(number, told)| number == block && told.block.start == place.block.start);
+        if place.line == 0 || is_told {
             return None;
         }
-        self.told = Some(block);
-        Some(shaped.place)
+        self.told = Some((block, place));
+        Some(place)
+    }
+
+    /// As [`Session::block_begins`], but of several blocks in a line the first one only.
+    pub fn line_begins(&mut self) -> Option<Place> {
+        let before = self.told;
+        let place = self.block_begins()?;
+        let block = self.motion.upstream.current().block;
+        let is_behind = before.is_some_and(|(number, told)| {
+            let same_line = (told.source, told.line) == (place.source, place.line);
+            same_line && told.block.start < place.block.start && block <= number + 1
+        });
+        (!is_behind).then_some(place)
     }
 }

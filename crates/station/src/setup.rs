@@ -3,6 +3,8 @@
 use data::{DataError, Document, Entry, Table};
 use dialect::ParameterSetting;
 
+use crate::configuration::ConfigurationError;
+
 /// A column of the offset memory.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum OffsetColumn {
@@ -12,6 +14,17 @@ pub enum OffsetColumn {
     Length,
     /// Radii, by D.
     Radius,
+}
+
+impl OffsetColumn {
+    /// The table of a set-up file that it is.
+    pub(crate) const fn table(self) -> &'static str {
+        match self {
+            OffsetColumn::Common => "offsets",
+            OffsetColumn::Length => "lengths",
+            OffsetColumn::Radius => "radii",
+        }
+    }
 }
 
 /// What a set-up says; values as written, checked when they are applied to a control and a machine.
@@ -37,6 +50,19 @@ pub struct Setup {
     pub contact: Vec<(u8, f64)>,
     /// Axis letter, whether it has been returned to its reference point since power-on.
     pub returned: Vec<(u8, bool)>,
+    /// The file it was read from, and its text; `None` for what the command line says.
+    pub source: Option<(String, String)>,
+}
+
+impl Setup {
+    /// Refuses what a key says, with its line where it stands in a file.
+    pub(crate) fn refuse(&self, path: &[&str], message: String) -> ConfigurationError {
+        let place = self.source.as_ref().and_then(|(file, text)| Some((file, text, data::place_of(text, path)?)));
+        ConfigurationError(match place {
+            Some((file, text, range)) => DataError::at(file, text, range, message).statement(),
+            None => message,
+        })
+    }
 }
 
 /// Reads a set-up file.
@@ -45,12 +71,11 @@ pub struct Setup {
 /// Every error of the file, each naming its line and key.
 pub fn read_setup(file: &str, text: &str) -> Result<Setup, Vec<DataError>> {
     Document::read(file, text, |root| {
-        let mut setup = Setup::default();
-        for (key, column) in
-            [("offsets", OffsetColumn::Common), ("lengths", OffsetColumn::Length), ("radii", OffsetColumn::Radius)]
-        {
-            let found =
-                root.table(key, |t| t.rest().iter().filter_map(|entry| offset(entry, column)).collect::<Vec<_>>());
+        let mut setup = Setup { source: Some((file.to_owned(), text.to_owned())), ..Setup::default() };
+        for column in [OffsetColumn::Common, OffsetColumn::Length, OffsetColumn::Radius] {
+            let found = root.table(column.table(), |t| {
+                t.rest().iter().filter_map(|entry| offset(entry, column)).collect::<Vec<_>>()
+            });
             setup.offsets.extend(found.unwrap_or_default());
         }
         let work = root.table("work", |t| t.rest().into_iter().flat_map(work_system).collect());

@@ -1,5 +1,7 @@
 //! The operator's switches.
 
+use data::nearest;
+
 /// The operator's switches, on or off.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct SessionSwitches {
@@ -47,7 +49,13 @@ impl SessionSwitches {
             "aux-lock" => &mut self.aux_lock,
             "z-cancel" => &mut self.z_cancel,
             "manual-absolute" => &mut self.manual_absolute,
-            _ => return Err(format!("there is no switch `{name}`; the switches are {NAMES}")),
+            _ => {
+                let names = NAMES.split(", ").map(|name| name.trim_end_matches("[=n]"));
+                return Err(match nearest(name, names) {
+                    Some(near) => format!("there is no switch `{name}`, perhaps `{near}` is meant"),
+                    None => format!("there is no switch `{name}`; the switches are {NAMES}"),
+                });
+            }
         };
         *switch = on;
         Ok(())

@@ -1,49 +1,15 @@
 //! A running program allocates nothing that depends on its length: memory does not grow, and time is not spent on it.
 
-#![allow(unsafe_code)] // a global allocator is unsafe by its signature
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
 mod watch;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::fmt::Write;
 
 use machine::EventKind;
 use station::{AfterAlarm, Session, Setup, Step};
+use testkit::{Counting, allocations_so_far};
 use watch::{Texts, configuration, machine, select};
-
-/// The system's allocator, counting each thread's calls that give memory.
-struct Counting;
-
-thread_local! {
-    static TAKEN: Cell<u64> = const { Cell::new(0) };
-}
-
-fn count() {
-    // While a thread ends there is nothing left to count in.
-    let _ = TAKEN.try_with(|taken| taken.set(taken.get() + 1));
-}
-
-// SAFETY: every call is handed to the system's allocator as it is.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        // SAFETY: the caller keeps alloc's contract.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the pointer came from `alloc`, that is from the system's allocator.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        // SAFETY: as for `dealloc`.
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -66,7 +32,7 @@ fn program(lines: usize, line: impl Fn(usize) -> String) -> Vec<u8> {
 
 /// Allocations of a whole run of the text with this id, and how many blocks it had.
 fn allocations(session: &mut Session<Texts>, source: u32) -> (u64, u64) {
-    let before = TAKEN.get();
+    let before = allocations_so_far();
     select(session, source);
     session.start();
     let mut blocks = 0;
@@ -82,7 +48,7 @@ fn allocations(session: &mut Session<Texts>, source: u32) -> (u64, u64) {
             Step::Failed(error) => panic!("{error}"),
         }
     }
-    (TAKEN.get() - before, blocks)
+    (allocations_so_far() - before, blocks)
 }
 
 /// The same kind of program, short and long, after both have been run once.
@@ -108,9 +74,9 @@ fn check_texts(what: &str, texts: Vec<Vec<u8>>) {
 
 #[test]
 fn the_counter_counts() {
-    let before = TAKEN.get();
+    let before = allocations_so_far();
     drop(std::hint::black_box(Box::new(1u8)));
-    assert_eq!(TAKEN.get() - before, 1);
+    assert_eq!(allocations_so_far() - before, 1);
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 use base::{Condition, Decimal, Span};
 
+use crate::grammar::{Grammar, Grouping};
+
 /// Where reading stands in a text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Cursor {
@@ -163,6 +165,19 @@ impl Block {
     /// True if nothing but blanks and comments stands in it.
     pub fn is_empty(&self) -> bool {
         self.words.is_empty() && self.statement.is_none() && self.faults.is_empty() && self.skips.is_empty()
+    }
+
+    /// True if a program begins with it, in a text that may hold several.
+    pub fn begins_program(&self, grammar: &Grammar) -> bool {
+        grammar.grouping == Grouping::OWords && self.words.first().is_some_and(|word| word.letter == b'O')
+    }
+
+    /// The whole number of the first word with this letter.
+    pub fn whole_number(&self, letter: u8) -> Option<i64> {
+        match self.words.iter().find(|word| word.letter == letter)?.value {
+            Value::Number(number) => number.integer(),
+            _ => None,
+        }
     }
 
     /// The block's own characters as a place in the text.

@@ -30,6 +30,16 @@ pub enum Colon {
     Refuse,
 }
 
+/// How a text divides into programs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Grouping {
+    /// Each O word begins a program; one text may hold several.
+    #[default]
+    OWords,
+    /// A file is a program.
+    Files,
+}
+
 /// How a control's program text is read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Grammar {
@@ -39,6 +49,8 @@ pub struct Grammar {
     pub lower_case: LowerCase,
     /// What `:` is.
     pub colon: Colon,
+    /// How a text divides into programs.
+    pub grouping: Grouping,
     /// Most characters of a block, its end included.
     pub block_length: u32,
 }
@@ -49,6 +61,7 @@ impl Default for Grammar {
             semicolon: Semicolon::default(),
             lower_case: LowerCase::default(),
             colon: Colon::default(),
+            grouping: Grouping::default(),
             block_length: u32::MAX,
         }
     }

@@ -15,6 +15,7 @@ fn grammar() -> impl Strategy<Value = Grammar> {
             lower_case: if fold { LowerCase::Fold } else { LowerCase::Refuse },
             colon: if colon { Colon::ProgramNumber } else { Colon::Refuse },
             block_length,
+            ..Grammar::default()
         },
     )
 }

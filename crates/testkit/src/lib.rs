@@ -5,6 +5,7 @@
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types)] // the edge of the house: files and processes
 
+mod allocation;
 mod case;
 mod coverage;
 mod difference;
@@ -20,6 +21,7 @@ use std::sync::Arc;
 
 use libtest_mimic::{Arguments, Failed, Trial};
 
+pub use allocation::{Counting, allocations_so_far};
 pub use case::{Case, Waits};
 pub use coverage::{alarms_are_covered, covers_are_known, rules_have_folders, warnings_have_cases};
 pub use difference::difference;

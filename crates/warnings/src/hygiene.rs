@@ -1,4 +1,5 @@
-//! What stands in the text and no run shows: `unreachable` and `unused-subprogram`, and the size of the whole.
+//! What stands in the text and no run shows: `unreachable`, `unused-subprogram`, `allow-unknown`, and the size of the
+//! whole.
 //!
 //! A run says where the program ends; if something stands behind that end the text is read once more, twice in all: for
 //! the targets of its jumps and calls, then for the rules. A long text with nothing behind its end is not read again.
@@ -6,17 +7,17 @@
 use std::collections::BTreeSet;
 
 use base::Place;
-use dialect::{Control, Grouping, MMeaning, Meaning};
+use dialect::{Control, MMeaning, Meaning};
 use meaning::Command;
 use station::{Library, LibraryError, Session};
-use syntax::{Block, Cursor, StatementKind, Value};
+use syntax::{Block, Cursor, StatementKind, Value, goto_number};
 use tape::Codes;
 
 use crate::blocks::Blocks;
 use crate::finding::Finding;
-use crate::rule::memory_size;
 use crate::rule::unreachable::Unreachable;
 use crate::rule::unused_subprogram::UnusedSubprogram;
+use crate::rule::{allow_unknown, memory_size};
 
 /// Jumps and calls that are kept; a text with more is not judged.
 const MOST_TARGETS: usize = 65_536;
@@ -149,10 +150,8 @@ fn take_words(control: &Control, block: &Block, targets: &mut Targets) {
 
 /// Where a macro statement jumps to.
 fn take_jump(text: &[u8], targets: &mut Targets) {
-    let text: Vec<u8> = text.iter().filter(|byte| !byte.is_ascii_whitespace()).map(u8::to_ascii_uppercase).collect();
-    let Some(at) = text.windows(4).position(|word| word == b"GOTO") else { return };
-    let number = text.get(at + 4..).unwrap_or_default();
-    match std::str::from_utf8(number).ok().and_then(|number| number.parse().ok()) {
+    let Some(place) = goto_number(text) else { return };
+    match place.and_then(|place| std::str::from_utf8(text.get(place)?).ok()?.parse().ok()) {
         Some(number) => drop(targets.blocks.insert(number)),
         None => targets.any_block = true,
     }
@@ -172,15 +171,16 @@ fn judge<L: Library>(
         if block.rewind && begun {
             break;
         }
+        let place = place_of(block, last);
+        for comment in &block.comments {
+            found.extend(allow_unknown::look(&String::from_utf8_lossy(blocks.text(*comment)), place));
+        }
         if block.is_empty() || block.rewind {
             continue;
         }
-        let place = place_of(block, last);
-        let begins =
-            control.grouping == Grouping::OWords && block.words.first().is_some_and(|word| word.letter == b'O');
-        if begins && begun {
+        if block.begins_program(&control.grammar) && begun {
             found.extend(unused.end(targets));
-            unused.begin(number_of(block, b'O'), place);
+            unused.begin(block.whole_number(b'O'), place);
             unreachable.begin();
         }
         begun = true;
@@ -192,13 +192,6 @@ fn judge<L: Library>(
     }
     found.extend(unused.end(targets));
     Ok(found)
-}
-
-fn number_of(block: &Block, letter: u8) -> Option<i64> {
-    match block.words.iter().find(|word| word.letter == letter)?.value {
-        Value::Number(number) => number.integer(),
-        _ => None,
-    }
 }
 
 fn facts(control: &Control, block: &Block) -> Facts {
@@ -214,7 +207,7 @@ fn facts(control: &Control, block: &Block) -> Facts {
     }
     let jumps = block.statement.is_some_and(|statement| statement.kind == StatementKind::Goto);
     Facts {
-        sequence: number_of(block, b'N'),
+        sequence: block.whole_number(b'N'),
         ends,
         returns,
         leaves: ends || returns || jumps,

@@ -2,7 +2,7 @@
 
 use base::{AXES, Point};
 use dialect::{Control, Fitting, Meaning};
-use meaning::{Command, Interpreter, MachineFacts, Memory, State};
+use meaning::{Command, Interpreter, LENGTH_AXIS, MachineFacts, Memory, State};
 
 /// A block that has been executed, with what it was executed by.
 #[derive(Clone, Copy)]
@@ -46,7 +46,7 @@ impl<'l> Look<'l> {
 
     /// The axis on which length offsets act.
     pub fn length_axis(&self) -> Option<usize> {
-        self.facts.axis(b'Z')
+        self.facts.axis(LENGTH_AXIS)
     }
 
     /// The number of the block's one-shot code, and its name.

@@ -2,6 +2,7 @@
 //!
 //! A rule that looks at one block alone is a function and a line in [`BLOCK_RULES`]; one that remembers is a value.
 
+pub(crate) mod allow_unknown;
 pub(crate) mod boring_code_differs;
 pub(crate) mod endless;
 pub(crate) mod ends_with_offset;

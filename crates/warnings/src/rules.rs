@@ -61,6 +61,8 @@ rules! {
     UnusedSubprogram = "unused-subprogram",
     /// A program that starts itself again and never stops.
     Endless = "endless",
+    /// A comment allows something that no warning is called.
+    AllowUnknown = "allow-unknown",
     /// The program is larger than the control's memory.
     MemorySize = "memory-size",
 }

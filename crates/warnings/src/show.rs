@@ -94,11 +94,16 @@ fn text_of(bytes: &[u8], span: Span) -> String {
 fn allows(block: &Block, bytes: &[u8], rule: Rule) -> bool {
     block.comments.iter().any(|comment| {
         let text = text_of(bytes, Span { start: u64::from(comment.at), len: u32::from(comment.len) });
-        let inner = text.trim_start_matches(['(', ';']).trim_end_matches(')').trim();
-        let Some((key, names)) = inner.split_once(':') else { return false };
-        key.trim().eq_ignore_ascii_case("allow")
-            && names.split([',', ' ']).any(|name| Rule::from_name(name.trim()) == Some(rule))
+        names_allowed(&text)
+            .is_some_and(|names| names.split([',', ' ']).any(|name| Rule::from_name(name.trim()) == Some(rule)))
     })
+}
+
+/// What a comment allows, as it writes it, if it is one that does.
+pub(crate) fn names_allowed(comment: &str) -> Option<&str> {
+    let inner = comment.trim_start_matches(['(', ';']).trim_end_matches(')').trim();
+    let (key, names) = inner.split_once(':')?;
+    key.trim().eq_ignore_ascii_case("allow").then_some(names)
 }
 
 /// Both readings of a number without a point, unless only one can be meant.

@@ -8,7 +8,7 @@ use std::mem;
 use base::{AXES, Point};
 use dialect::Meaning;
 use machine::{Event, EventKind};
-use meaning::{EndKind, Finish, Interpreter, letter_bit};
+use meaning::{EndKind, Finish, Interpreter, LENGTH_AXIS, letter_bit};
 use station::Configuration;
 
 use crate::finding::{Finding, Found};
@@ -61,7 +61,7 @@ impl Watch {
         let own = |name: &str| control.own_warnings.iter().any(|row| row.name == name);
         let needs_row = |name: &str| control.warnings.iter().any(|row| row.own && row.name == name);
         let silent = Rule::ALL.iter().copied().filter(|rule| needs_row(rule.name()) && !own(rule.name()));
-        let length_axis = facts.axis(b'Z').filter(|_| !machine.straight_rapid).map(|axis| (axis, b'Z'));
+        let length_axis = facts.axis(LENGTH_AXIS).filter(|_| !machine.straight_rapid).map(|axis| (axis, LENGTH_AXIS));
         let mut across = [false; AXES];
         for (index, axis) in facts.axes.iter().enumerate().take(AXES) {
             across[index] = !axis.rotary && length_axis.is_some_and(|(length, _)| length != index);

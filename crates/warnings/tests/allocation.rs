@@ -1,48 +1,14 @@
 //! Watching allocates nothing that depends on the program's length.
 
-#![allow(unsafe_code)] // a global allocator is unsafe by its signature
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
 mod texts;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::fmt::Write;
 
+use testkit::{Counting, allocations_so_far};
 use texts::{configuration, session, watched};
 use warnings::Watch;
-
-/// The system's allocator, counting each thread's calls that give memory.
-struct Counting;
-
-thread_local! {
-    static TAKEN: Cell<u64> = const { Cell::new(0) };
-}
-
-fn count() {
-    // While a thread ends there is nothing left to count in.
-    let _ = TAKEN.try_with(|taken| taken.set(taken.get() + 1));
-}
-
-// SAFETY: every call is handed to the system's allocator as it is.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        // SAFETY: the caller keeps alloc's contract.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the pointer came from `alloc`, that is from the system's allocator.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        // SAFETY: as for `dealloc`.
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -57,11 +23,11 @@ fn allocations(lines: usize, line: impl Fn(usize) -> String) -> u64 {
     let configuration = configuration();
     let mut session = session(&configuration, text.as_bytes());
     let mut watch = Watch::new(&configuration);
-    let before = TAKEN.get();
+    let before = allocations_so_far();
     let (events, found) = watched(&mut session, &mut watch, usize::MAX);
     assert!(events > lines, "{events} events of {lines} lines");
     assert!(found.iter().all(|finding| finding.rule.name() == "memory-size"), "{found:?}");
-    TAKEN.get() - before
+    allocations_so_far() - before
 }
 
 #[test]

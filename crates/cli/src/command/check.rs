@@ -6,7 +6,7 @@ use std::io;
 use base::Severity;
 use dialect::Fitting;
 use machine::EventKind;
-use report::{Format, begin, end, render, render_with_labels, separator};
+use report::{Format, Rules, begin, end, render, render_with_labels, separator};
 use station::{AfterAlarm, Configuration, Session};
 use tempfile::NamedTempFile;
 use warnings::{Choice, Finding, Outcomes, Rule, Watch, look_at_text, power_on_trials, second_piece};
@@ -71,6 +71,7 @@ struct Findings<'c> {
     format: Format,
     output: Output,
     counts: &'c mut Counts,
+    rules: Rules,
     /// Piece and block at which each came up, and its text.
     held: Vec<((u64, u64), String)>,
 }
@@ -95,6 +96,7 @@ impl Findings<'_> {
         else {
             return Ok(());
         };
+        self.rules.take_in(diagnostic.code, &control);
         match severity {
             Severity::Error => self.counts.denied += 1,
             Severity::Warning => self.counts.warnings += 1,
@@ -124,14 +126,15 @@ fn check_all(arguments: &CheckArguments, counts: &mut Counts) -> Result<bool, Fa
     };
     let choice = Choice::new(&arguments.deny, &arguments.allow).map_err(Failure::call)?;
     let files = named_programs(&arguments.files)?;
-    let mut findings = Findings { choice: &choice, format, output: Output::new(), counts, held: Vec::new() };
+    let mut findings =
+        Findings { choice: &choice, format, output: Output::new(), counts, rules: Rules::default(), held: Vec::new() };
     findings.output.buffer.extend_from_slice(begin(format).as_bytes());
     for file in &files {
         check_one(file, arguments, &mut findings)?;
         findings.tell()?;
     }
     let mut output = findings.output;
-    output.buffer.extend_from_slice(end(format).as_bytes());
+    output.buffer.extend_from_slice(end(format, &findings.rules).as_bytes());
     if matches!(format, Format::Text { .. }) {
         output.buffer.extend_from_slice(findings.counts.line(files.len() as u64).as_bytes());
     }
@@ -163,6 +166,7 @@ fn check_one(file: &str, arguments: &CheckArguments, findings: &mut Findings) ->
                         said.insert(key);
                     }
                     let (diagnostic, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
+                    findings.rules.take_in(diagnostic.code, control);
                     findings.counts.alarms += 1;
                     let order = (piece, session.interpreter().done()[0].block);
                     findings.hold(order, render(&diagnostic, &excerpt, findings.format))?;

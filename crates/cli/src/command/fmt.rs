@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use crate::named_programs::named_programs;
 use crate::output::Output;
 use crate::setting;
-use crate::texts::{Texts, folder_of};
+use crate::texts::{Texts, folder_of, one_byte_a_character};
 
 /// The text in question, in a session's texts.
 const OWN: SourceId = SourceId(0);
@@ -80,9 +80,7 @@ fn read(file: &str, configuration: &Configuration) -> Result<Vec<u8>, Failure> {
     } else {
         bytes = fs::read(file).map_err(cannot)?;
     }
-    if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
-        return Err(Failure::call(format!("{file}: a text of two bytes a character; save it as plain text first")));
-    }
+    one_byte_a_character(file, &bytes).map_err(Failure::call)?;
     let codes = configuration.fitting.tape_codes(&configuration.control);
     let head = bytes.get(..bytes.len().min(WINDOW)).unwrap_or_default();
     if codes.is_some_and(|codes| recognise(head, &codes) != Format::Text) {

@@ -1,7 +1,5 @@
 //! `plot`: the tool path as a picture.
 
-use std::fs;
-
 use base::Point;
 use machine::EventKind;
 use meaning::{CodeLine, Plane};
@@ -11,7 +9,7 @@ use report::{Format, render};
 use super::{name_of, open, run_through};
 use crate::arguments::PlotArguments;
 use crate::failure::Failure;
-use crate::output::{colour_err, say};
+use crate::output::{colour_err, say, write_file};
 use crate::show_alarm::show_alarm;
 
 /// What a picture can be.
@@ -63,8 +61,11 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
                     Plane::Yz => plot::Plane::Yz,
                 };
                 let shape = Arc { plane, center: arc.center, sweep_deg: arc.sweep.to_degrees() };
+                // A fourth axis has no place in the picture: where it turns with one of the three, those go straight.
+                let letters = arc.axes.map(|axis| machine.axes.get(usize::from(axis)).map(|axis| axis.letter));
+                let shape = (letters == arc.plane.letters().map(Some)).then_some(shape);
                 let (from, to) = (at(&arc.from), at(&arc.to));
-                drawing.stroke(&Stroke { kind: Kind::Feed, from, to, arc: Some(shape), feed: *feed, tool });
+                drawing.stroke(&Stroke { kind: Kind::Feed, from, to, arc: shape, feed: *feed, tool });
             }
             EventKind::Code(code) if code.line == CodeLine::T => tool = code.code,
             EventKind::Code(code) if code.line == CodeLine::M && code.code == TOOL_CHANGE => {
@@ -87,6 +88,6 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
         Picture::Svg => drawing.svg().into_bytes(),
         Picture::Png => drawing.png(arguments.width).map_err(Failure::call)?,
     };
-    fs::write(output, bytes).map_err(|e| Failure::call(format!("cannot write {}: {e}", output.display())))?;
+    write_file(output, &bytes, &arguments.setting.files(&arguments.file))?;
     Ok(!alarmed)
 }

@@ -1,14 +1,17 @@
 //! `sheet`: the set-up sheet that a shop prints.
 
-use std::fs;
+use std::path::Path;
 
 use report::{Format, Sheet, render, sheet_html, sheet_json, sheet_text};
 
 use super::open;
 use crate::arguments::{SheetArguments, SheetFormat};
 use crate::failure::Failure;
-use crate::output::{Output, colour_err, paint_out, say};
+use crate::output::{colour_err, paint_out, say, write_file};
 use crate::show_alarm::show_alarm;
+
+/// Standard output, where a file is named.
+const STDOUT: &str = "-";
 
 pub fn sheet(arguments: &SheetArguments) -> Result<bool, Failure> {
     let format = format(arguments)?;
@@ -24,22 +27,14 @@ pub fn sheet(arguments: &SheetArguments) -> Result<bool, Failure> {
         sheet.alarm_text = Some(format!("line {}: alarm {name}, {}", excerpt.line, diagnostic.message));
     }
     let mut paint = paint_out();
-    paint.colour &= arguments.output.is_none();
+    let output = arguments.output.as_deref().unwrap_or(Path::new(STDOUT));
+    paint.colour &= output == Path::new(STDOUT);
     let text = match format {
         SheetFormat::Text => sheet_text(&sheet, paint),
         SheetFormat::Json => sheet_json(&sheet) + "\n",
         SheetFormat::Html => sheet_html(&sheet),
     };
-    match &arguments.output {
-        Some(path) => {
-            fs::write(path, text).map_err(|e| Failure::call(format!("cannot write {}: {e}", path.display())))?
-        }
-        None => {
-            let mut output = Output::new();
-            output.buffer.extend_from_slice(text.as_bytes());
-            output.flush()?;
-        }
-    }
+    write_file(output, text.as_bytes(), &arguments.setting.files(&arguments.file))?;
     Ok(sheet.alarm.is_none())
 }
 

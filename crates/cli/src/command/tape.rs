@@ -15,7 +15,7 @@ use crate::arguments::{
     CodeArgument, OnOff, PunchCodeArgument, TapeArguments, TapeCommand, TapePunchArguments, TapeReadArguments,
 };
 use crate::failure::Failure;
-use crate::output::{colour_err, say};
+use crate::output::{colour_err, say, write_file};
 use crate::setting;
 use crate::texts::readable;
 
@@ -54,20 +54,20 @@ fn contents(file: &str) -> Result<Vec<u8>, Failure> {
     read.map_err(|error| Failure::call(format!("cannot read {file}: {error}")))
 }
 
-fn write(output: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    if output.as_os_str() == "-" {
-        return Ok(std::io::stdout().lock().write_all(bytes)?);
-    }
-    fs::write(output, bytes).map_err(|error| Failure::call(format!("cannot write {}: {error}", output.display())))
-}
-
-/// Draws the tape as it was asked for; `tv` marks odd blocks.
-fn draw(bytes: &[u8], tape: Tape, codes: &Codes, tv: bool, arguments: &TapeArguments) -> Result<(), Failure> {
+/// Draws the tape as it was asked for; `tv` marks odd blocks, `file` is what the command reads.
+fn draw(
+    bytes: &[u8],
+    tape: Tape,
+    codes: &Codes,
+    tv: bool,
+    arguments: &TapeArguments,
+    file: &str,
+) -> Result<(), Failure> {
     if arguments.draw {
         std::io::stdout().lock().write_all(tape::draw(bytes, tape, codes, tv).as_bytes())?;
     }
     match &arguments.svg {
-        Some(output) => write(output, tape::strip(bytes, tape, codes).as_bytes()),
+        Some(output) => write_file(output, tape::strip(bytes, tape, codes).as_bytes(), &[Path::new(file)]),
         None => Ok(()),
     }
 }
@@ -85,11 +85,11 @@ fn read(arguments: &TapeReadArguments) -> Result<bool, Failure> {
     say(&notes(&bytes, tape, &codes, &written, name));
     say(&verdict(&written.findings, tape.system, name));
     match &arguments.output {
-        Some(output) => write(output, &written.text)?,
+        Some(output) => write_file(output, &written.text, &[Path::new(&arguments.file)])?,
         None if arguments.tape.draw || arguments.tape.svg.is_some() => {}
         None => std::io::stdout().lock().write_all(&written.text)?,
     }
-    draw(&bytes, tape, &codes, tv, &arguments.tape)?;
+    draw(&bytes, tape, &codes, tv, &arguments.tape, &arguments.file)?;
     Ok(written.findings.is_empty())
 }
 
@@ -104,6 +104,9 @@ fn tape_of(bytes: &[u8], arguments: &TapeReadArguments, codes: &Codes) -> Result
     let Some(system) = forced else {
         return match tape::recognise(&bytes[..bytes.len().min(meaning::WINDOW)], codes) {
             Recognised::Tape(tape) => Ok(tape),
+            Recognised::Text if bytes.iter().all(|byte| matches!(byte, 0 | 0x7F | b' ' | b'\t'..=b'\r')) => {
+                Err(Failure::call(format!("{file} is empty or blank: it holds no tape to read")))
+            }
             Recognised::Text => Err(Failure::call(format!(
                 "{file} is no tape that can be recognised, it reads as text; name its code with --code if it is one"
             ))),
@@ -200,10 +203,10 @@ fn punch(arguments: &TapePunchArguments) -> Result<bool, Failure> {
     };
     let image = tape::punch(&text, how, &codes).map_err(|lacking| lacks(&lacking, how.system, file, &control))?;
     if let Some(output) = &arguments.output {
-        write(output, &image)?;
+        write_file(output, &image, &[Path::new(file)])?;
     }
     if shown && let Some(tape) = Tape::new(how.system, &image, &codes) {
-        draw(&image, tape, &codes, how.even, &arguments.tape)?;
+        draw(&image, tape, &codes, how.even, &arguments.tape, file)?;
     }
     Ok(true)
 }

@@ -10,19 +10,15 @@ const DONE: u32 = 4;
 const NEXT_CUT: u32 = 5;
 
 pub(super) fn step(holes: &Holes, at: &mut Cursor) -> Step {
-    let down = if holes.bottom < holes.r { -1.0 } else { 1.0 };
     match at.phase {
         CUT | NEXT_CUT => {
             let from = if at.phase == CUT { holes.r } else { at.depth };
-            let next = from + down * holes.peck;
-            let reached = (next - holes.bottom) * down >= 0.0;
-            at.depth = if reached { holes.bottom } else { next };
-            at.phase = if reached { DWELL } else { BACK_OFF };
+            at.phase = if at.cut(holes, from) { DWELL } else { BACK_OFF };
             Step::Feed(at.depth)
         }
         BACK_OFF => {
             at.phase = NEXT_CUT;
-            Step::Rapid(at.depth - down * holes.clearance)
+            Step::Rapid(at.depth - holes.down() * holes.clearance)
         }
         DWELL => {
             at.phase = OUT;

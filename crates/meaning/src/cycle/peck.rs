@@ -10,14 +10,10 @@ const DONE: u32 = 4;
 const NEXT_CUT: u32 = 5;
 
 pub(super) fn step(holes: &Holes, at: &mut Cursor) -> Step {
-    let down = if holes.bottom < holes.r { -1.0 } else { 1.0 };
     match at.phase {
         CUT | NEXT_CUT => {
             let from = if at.phase == CUT { holes.r } else { at.depth };
-            let next = from + down * holes.peck;
-            let reached = (next - holes.bottom) * down >= 0.0;
-            at.depth = if reached { holes.bottom } else { next };
-            at.phase = if reached { LAST } else { OUT };
+            at.phase = if at.cut(holes, from) { LAST } else { OUT };
             Step::Feed(at.depth)
         }
         OUT => {
@@ -26,6 +22,7 @@ pub(super) fn step(holes: &Holes, at: &mut Cursor) -> Step {
         }
         BACK => {
             // A peck shallower than the clearance would lead back above R.
+            let down = holes.down();
             let above = at.depth - down * holes.clearance;
             at.phase = NEXT_CUT;
             Step::Rapid(if (above - holes.r) * down < 0.0 { holes.r } else { above })

@@ -7,6 +7,7 @@ use super::pattern::{Places, sin_cos_deg};
 use super::{CycleData, Holes, Spindle, needs_peck, needs_shift, store, store_shift};
 use crate::block::Reading;
 use crate::command::Body;
+use crate::coordinate::LENGTH_AXIS;
 use crate::operation::{Feed, RapidKind, Side};
 use crate::unknown::letter_bit;
 
@@ -22,7 +23,7 @@ impl Reading<'_> {
     }
 
     fn drilling_axis(&self) -> Result<usize, Alarm> {
-        self.setting.facts.axis(b'Z').ok_or_else(|| self.motion_alarm(Condition::AddressUnavailable))
+        self.setting.length_axis.ok_or_else(|| self.motion_alarm(Condition::AddressUnavailable))
     }
 
     /// Takes the initial level when the cycle mode is entered, and forgets the data when it is left.
@@ -48,16 +49,17 @@ impl Reading<'_> {
     /// A block while a cycle is in force: it stores data, and drills if it names a place.
     pub fn cycle_block(&mut self, cycle: Meaning) -> Result<(), Alarm> {
         let control = self.control();
-        let (units, absolute, takes_dwell) = (self.units, self.absolute, !self.calls_or_returns);
+        let (units, absolute) = (self.units, self.absolute);
         let initial = self.initial_level(cycle)?;
-        store(&self.words, control, units, absolute, takes_dwell, initial, &mut self.next.cycle)?;
+        store(&self.words, control, units, absolute, initial, &mut self.next.cycle)?;
+        self.store_dwell()?;
         store_shift(&self.words, control, units, &mut self.next.cycle)?;
-        let levels = letter_bit(b'R') | letter_bit(b'Z');
+        let levels = letter_bit(b'R') | letter_bit(LENGTH_AXIS);
         if !self.words.has_any(self.setting.axis_letters | levels) {
             return Ok(());
         }
         let drilling = self.drilling_axis()?;
-        let count = if takes_dwell { self.words.count(control, b'L')?.unwrap_or(1) } else { 1 };
+        let count = if !self.calls_or_returns { self.words.count(control, b'L')?.unwrap_or(1) } else { 1 };
         if count == 0 && self.setting.fitting.policies.cycle_l0_moves == CycleL0Moves::No {
             return Ok(());
         }
@@ -75,6 +77,16 @@ impl Reading<'_> {
         self.holes((count > 0).then_some(cycle), places, approach)
     }
 
+    /// Takes P into the cycle's data, unless it is that of a call or a jump.
+    fn store_dwell(&mut self) -> Result<(), Alarm> {
+        if self.calls_or_returns {
+            return Ok(());
+        }
+        let Some(number) = self.dwell_number(b'P')? else { return Ok(()) };
+        self.next.cycle.dwell = self.words.seconds(self.control(), b'P', number)?;
+        Ok(())
+    }
+
     /// G70, G71, G72: holes on a circle, an arc or a line, made with the cycle in force or only gone to.
     pub fn pattern(&mut self, code: Meaning, cycle: Option<Meaning>) -> Result<(), Alarm> {
         let control = self.control();
@@ -82,16 +94,17 @@ impl Reading<'_> {
             return Err(self.one_shot_alarm(Condition::AddressUnavailable));
         };
         if let Some(cycle) = cycle {
-            let (units, absolute, takes_dwell) = (self.units, self.absolute, !self.calls_or_returns);
+            let (units, absolute) = (self.units, self.absolute);
             let initial = self.initial_level(cycle)?;
             // Here I and J belong to the pattern; R, Z, Q and P may still renew the cycle's data.
-            store(&self.words, control, units, absolute, takes_dwell, initial, &mut self.next.cycle)?;
+            store(&self.words, control, units, absolute, initial, &mut self.next.cycle)?;
+            self.store_dwell()?;
         }
         let count = self.words.integer(control, b'L')?.unwrap_or(0);
         let size = self.words.length(control, b'I', self.units)?.unwrap_or(0.0);
         let angle = self.words.angle(control, b'J')?.unwrap_or(0.0) / 1e6;
         let (mut level, mut named) = (self.next.machine, self.axes_named()?);
-        if let (Some(drilling), true) = (self.setting.facts.axis(b'Z'), cycle.is_some()) {
+        if let (Some(drilling), true) = (self.setting.length_axis, cycle.is_some()) {
             named = named.without(base::AxisSet::only(drilling));
         }
         for axis in named.iter() {

@@ -7,10 +7,10 @@ use crate::command::{Command, Finish};
 use crate::operation::{EndKind, Side};
 use crate::program::Frame;
 use crate::setting::Setting;
-use crate::user_macro::store::UNFOUND;
+use crate::user_macro::store::{UNFOUND, sequence_of};
 use crate::user_macro::trouble::Trouble;
 use base::{Condition, Place, Span};
-use syntax::{Cursor, Outcome, Value, read_block};
+use syntax::{Cursor, Outcome, read_block};
 
 /// Why no block came of a text.
 pub(super) enum Text {
@@ -118,10 +118,6 @@ impl Reader {
 
     /// Where the block at hand stands.
     pub(crate) fn place_of_block(&self, frame: &Frame) -> Place {
-        let sequence = match self.block.words.iter().find(|word| word.letter == b'N').map(|word| word.value) {
-            Some(Value::Number(number)) => number.integer().and_then(|n| u32::try_from(n).ok()).unwrap_or(0),
-            _ => 0,
-        };
         let start = self.block.start;
         Place {
             program: self.calls.top().map_or(frame.program, |frame| frame.program),
@@ -129,7 +125,7 @@ impl Reader {
             line: start.line,
             line_start: start.line_start,
             block: self.block.span(),
-            sequence,
+            sequence: sequence_of(&self.block),
         }
     }
 }

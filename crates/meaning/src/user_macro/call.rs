@@ -51,22 +51,14 @@ impl Reading<'_> {
             return Err(self.one_shot_alarm(Condition::MacroNestingTooDeep).with([levels, 0.0, 0.0]).into());
         }
         self.take_arguments()?;
-        let target = Target::Program { number, from: self.words.place.source };
-        match self.calls.lookup(&target) {
-            None => Err(Refusal::Locate(target)),
-            Some(None) => {
-                let values = [f64::from(number), 0.0, 0.0];
-                Err(self.words.alarm(Condition::ProgramNotFound, b'P').with(values).into())
-            }
-            Some(Some(found)) if modal => Ok(Flow::ModalCall(found, repeats)),
-            Some(Some(found)) => Ok(Flow::MacroCall(found, repeats)),
-        }
+        let found = self.locate(Target::Program { number, from: self.words.place.source }, b'P')?;
+        Ok(if modal { Flow::ModalCall(found, repeats) } else { Flow::MacroCall(found, repeats) })
     }
 
     /// L of a call.
     pub fn repeats(&self) -> Result<u32, Alarm> {
         match self.words.count(self.control(), b'L')? {
-            Some(0) => Err(self.words.alarm(Condition::ValueOutOfRange, b'L').with([0.0, 1.0, 9999.0])),
+            Some(0) => Err(self.words.below(self.control(), b'L', 0, 1)),
             repeats => Ok(repeats.unwrap_or(1)),
         }
     }

@@ -1,6 +1,6 @@
 //! Statements carried out by the reader: variables written, jumps taken, loops turned.
 
-use base::{Alarm, Condition, Place};
+use base::{Alarm, AxisSet, Condition, Place};
 use dialect::VariableMeaning;
 use syntax::{Cursor, Extent};
 
@@ -13,11 +13,10 @@ use super::system::{Source, Written};
 use super::trouble::Trouble;
 use crate::command::Command;
 use crate::data_setting::DataWrite;
-use crate::jump::{LoopsAround, OpenLoop, Target as Goal};
+use crate::jump::{Found, LoopsAround, OpenLoop, Target as Goal};
 use crate::operation::SetValue;
 use crate::program::Frame;
-use crate::reader::After;
-use crate::reader::{Note, Read, Reader};
+use crate::reader::{After, Note, Read, Reader};
 use crate::record::StatementRead;
 use crate::search::Search;
 
@@ -51,8 +50,7 @@ impl Reader {
     /// Carries a kept statement out. `None` reads on.
     pub(crate) fn take_statement(&mut self, index: u32, command: &mut Command) -> Option<Read> {
         let line = *self.store.line(index)?;
-        let outcome = self.may_run(&line).and_then(|()| self.carry_out(index, &line));
-        match outcome {
+        match self.carry_out(index, &line) {
             Ok(Next::Wait) => None,
             Ok(next) => {
                 self.answers.clear();
@@ -128,15 +126,10 @@ impl Reader {
         }
     }
 
-    /// Whether statements may stand here at all, and whether this is one too many without a move.
-    fn may_run(&mut self, line: &Line) -> Result<(), Trouble> {
+    fn carry_out(&mut self, index: u32, line: &Line) -> Result<Next, Trouble> {
         if !self.setting.fitting.options.user_macro {
             return Err(Trouble::at(Condition::MacroNotFitted, line.extent));
         }
-        Ok(())
-    }
-
-    fn carry_out(&mut self, index: u32, line: &Line) -> Result<Next, Trouble> {
         let Some(statement) = line.statement else { return Ok(Next::Following) };
         let next = match statement {
             Statement::Assign { target, place, value } => {
@@ -243,8 +236,8 @@ impl Reader {
     fn write(&mut self, line: &Line, number: u32, value: f64, written: Written) -> Result<SetValue, Trouble> {
         match written {
             Written::Nothing => return Ok(SetValue::Variable { number, value }),
-            Written::Offset(offset, mm) => {
-                let write = DataWrite::Offset { number: offset, value: mm * 1e6 };
+            Written::Offset(offset, mm, stored) => {
+                let write = DataWrite::Offset { number: offset, value: stored };
                 self.state.memory_mark ^= self.setting.memory.write(write);
                 return Ok(SetValue::Offset { number: offset, value: mm });
             }
@@ -255,6 +248,7 @@ impl Reader {
                     let mut origin = self.setting.memory.work.get(system).copied().unwrap_or_default();
                     origin[axis] = counts;
                     self.state.memory_mark ^= self.setting.memory.write(DataWrite::Work { system, origin });
+                    return Ok(self.setting.work_origin(system, AxisSet::only(axis), &origin));
                 }
             },
             Written::BlockControl(bits) => self.state.block_control = bits,
@@ -288,17 +282,7 @@ impl Reader {
                     from: line.next,
                     number,
                 };
-                let found = match self.calls.lookup(&goal) {
-                    None => {
-                        self.look_for(goal);
-                        return Ok(Next::Wait);
-                    }
-                    Some(None) => {
-                        let values = [f64::from(number), 0.0, 0.0];
-                        return Err(Trouble::Refused(Condition::SequenceNotFound, place, values));
-                    }
-                    Some(Some(found)) => found,
-                };
+                let Some(found) = self.locate(goal, place)? else { return Ok(Next::Wait) };
                 let target = Target { cursor: found.cursor, enters: found.enters };
                 if !computed {
                     self.store.set_target(index, target);
@@ -318,7 +302,19 @@ impl Reader {
         Ok(Next::At(target.cursor))
     }
 
-    /// Starts a search; the statement is carried out anew when it has come to an end.
+    /// Where a goal is; `None` has started a search, and the statement is carried out anew when that has ended.
+    fn locate(&mut self, goal: Goal, place: Extent) -> Result<Option<Found>, Trouble> {
+        match self.calls.lookup(&goal) {
+            None => self.look_for(goal),
+            Some(None) => {
+                let (condition, values) = goal.missing();
+                return Err(Trouble::Refused(condition, place, values));
+            }
+            Some(found) => return Ok(found),
+        }
+        Ok(None)
+    }
+
     fn look_for(&mut self, goal: Goal) {
         let Some(main) = self.calls.frames.first().map(|main| main.source) else { return };
         let around = match goal {
@@ -337,17 +333,7 @@ impl Reader {
             Some(target) => target.cursor,
             None => {
                 let goal = Goal::LoopEnd { source: self.frame().source, from: line.next, number };
-                let found = match self.calls.lookup(&goal) {
-                    None => {
-                        self.look_for(goal);
-                        return Ok(Next::Wait);
-                    }
-                    Some(None) => {
-                        let values = [f64::from(number), 0.0, 0.0];
-                        return Err(Trouble::Refused(Condition::MacroLoopPair, line.extent, values));
-                    }
-                    Some(Some(found)) => found,
-                };
+                let Some(found) = self.locate(goal, line.extent)? else { return Ok(Next::Wait) };
                 self.store.set_target(index, Target { cursor: found.cursor, enters: false });
                 found.cursor
             }
@@ -404,7 +390,7 @@ impl Reader {
 }
 
 impl Reader {
-    /// The value of a variable for a display; `None` is a blank, or nothing that can be shown without asking the machine.
+    /// The value of a variable for a display; `None` is a blank, or what cannot be shown without asking the machine.
     pub fn variable(&self, number: u32) -> Option<f64> {
         let value = self.source().read(number, Extent::default()).ok()?;
         (!value.is_nan()).then_some(value)

@@ -13,7 +13,7 @@ mod code;
 mod evaluation;
 mod expression;
 pub(crate) mod flow;
-mod number;
+pub(crate) mod number;
 mod scanner;
 pub(crate) mod statement;
 pub(crate) mod store;

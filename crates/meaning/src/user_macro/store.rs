@@ -228,11 +228,9 @@ impl Store {
     }
 }
 
-fn sequence_of(block: &Block) -> u32 {
-    match block.words.iter().find(|word| word.letter == b'N').map(|word| word.value) {
-        Some(Value::Number(number)) => number.integer().and_then(|n| u32::try_from(n).ok()).unwrap_or(0),
-        _ => 0,
-    }
+/// The N of a block, 0 if it has none.
+pub(crate) fn sequence_of(block: &Block) -> u32 {
+    block.whole_number(b'N').and_then(|number| u32::try_from(number).ok()).unwrap_or(0)
 }
 
 fn slot_of(source: SourceId, at: u64) -> usize {

@@ -31,8 +31,8 @@ pub(crate) struct Source<'s> {
 /// What a write to a system variable changed, beside the memory itself.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Written {
-    /// An offset, by its number, now so many mm.
-    Offset(u32, f64),
+    /// An offset, by its number, now so many mm; what is stored of it, nanometres.
+    Offset(u32, f64, f64),
     /// The origin of work system 1 to 6 (0: the shift of all) along an axis, now so many counts.
     Origin(u8, usize, f64),
     /// An output or clock: nothing that needs more work.
@@ -102,7 +102,10 @@ impl Source<'_> {
     fn offset(&self, number: u32, place: Extent) -> Result<f64, Trouble> {
         let index = number - self.first_offset();
         match self.setting.memory.length(index) {
-            Some(nanometres) => Ok(nanometres / unit_of(self.setting, self.state, false)),
+            Some(stored) => {
+                let unit = unit_of(self.setting, self.state, false);
+                Ok(self.setting.offset_in(stored, unit != 1e6) / unit)
+            }
             None => Err(unknown(number, place)),
         }
     }
@@ -187,16 +190,24 @@ impl Source<'_> {
         let filled = if value.is_nan() { 0.0 } else { value };
         Ok(match row.meaning {
             VariableMeaning::Offset => {
-                let mm = filled * unit_of(self.setting, self.state, false) / 1e6;
-                let limit = self.setting.offset_limit(unit_of(self.setting, self.state, false) != 1e6) / 1e6;
+                let unit = unit_of(self.setting, self.state, false);
+                let mm = filled * unit / 1e6;
+                let limit = self.setting.offset_limit(unit != 1e6) / 1e6;
                 if mm.abs() > limit {
                     return Err(Trouble::Refused(Condition::OffsetRange, place, [mm, limit, 0.0]));
                 }
-                Written::Offset(number - self.first_offset(), (mm * 1e6).round() / 1e6)
+                let counts = (mm * 1e6).round();
+                let stored = self.setting.offset_stored(counts, unit != 1e6);
+                Written::Offset(number - self.first_offset(), counts / 1e6, stored)
             }
             VariableMeaning::WorkOriginOfAxis | VariableMeaning::WorkOriginOfSystem => {
                 let (system, axis) = self.origin_of(row, index, number, place)?;
-                Written::Origin(system, axis, (filled * self.unit(axis)).round())
+                let counts = (filled * self.unit(axis)).round();
+                let limit = self.setting.origin_limit(axis, unit_of(self.setting, self.state, false) != 1e6);
+                if counts.abs() > limit {
+                    return Err(Trouble::Refused(Condition::OffsetRange, place, [counts / 1e6, limit / 1e6, 0.0]));
+                }
+                Written::Origin(system, axis, counts)
             }
             VariableMeaning::BlockControl => Written::BlockControl(filled.clamp(0.0, 255.0) as u8),
             VariableMeaning::FeedControl => Written::FeedControl(filled.clamp(0.0, 255.0) as u8),

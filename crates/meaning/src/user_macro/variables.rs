@@ -74,13 +74,6 @@ impl Variables {
         self.volatile.fill(BLANK);
     }
 
-    /// Takes over what survives while power is off.
-    pub fn keep_permanent(&mut self, before: &Variables) {
-        if self.permanent.len() == before.permanent.len() {
-            self.permanent.copy_from_slice(&before.permanent);
-        }
-    }
-
     /// The index of a volatile (0) or permanent (1) variable by its number.
     pub(crate) fn index(&self, kind: usize, number: u32) -> u16 {
         number.saturating_sub(self.first[kind]).min(u32::from(u16::MAX)) as u16

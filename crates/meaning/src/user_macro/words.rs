@@ -1,7 +1,7 @@
 //! Words with variables: their values become numbers before the block is given its meaning.
 
 use base::{Condition, Decimal};
-use dialect::{DwellVariable, Meaning, PointRule};
+use dialect::PointRule;
 use syntax::Value;
 
 use super::evaluation::evaluate;
@@ -45,23 +45,10 @@ impl Reader {
 
     /// A value as the number of a word: rounded to what its address counts, as if written with a point where one may be.
     fn number_for(&self, letter: u8, value: f64) -> Decimal {
-        let seconds = self.setting.fitting.policies.dwell_variable == DwellVariable::Seconds;
         match self.setting.control.address(letter).map(|address| address.point) {
-            Some(PointRule::No) => whole(value),
-            Some(PointRule::Dwell) if !(seconds && self.has_g(&[Meaning::Dwell])) => whole(value),
+            // Where P is a dwell, what reads it goes back to the value.
+            Some(PointRule::No | PointRule::Dwell) => whole(value),
             _ => with_point(value),
         }
-    }
-
-    /// True if a G code with one of these meanings stands in the block.
-    pub(crate) fn has_g(&self, meanings: &[Meaning]) -> bool {
-        let control = &self.setting.control;
-        self.block.words.iter().any(|word| {
-            let Value::Number(number) = word.value else { return false };
-            word.letter == b'G'
-                && number.integer().and_then(|code| control.g_row(code)).is_some_and(|row| {
-                    control.g_codes.get(usize::from(row)).is_some_and(|code| meanings.contains(&code.meaning))
-                })
-        })
     }
 }

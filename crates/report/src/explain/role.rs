@@ -52,6 +52,9 @@ fn axis(here: &Here, letter: u8, value: f64) -> Option<String> {
     if here.has_code(Meaning::ScalingOn) {
         return Some(format!("{name} of the centre of scaling"));
     }
+    if here.has_code(Meaning::StrokeCheckOn) {
+        return Some(format!("upper face of the box along {name}, machine coordinate"));
+    }
     if here.cycle().is_some() {
         if letter == meaning::LENGTH_AXIS {
             let whence = if here.is_absolute() { "absolute" } else { "counted from the R level" };
@@ -175,6 +178,20 @@ fn geometry(here: &Here, letter: u8, value: f64) -> Option<String> {
         let how = if here.is_absolute() { "takes the place of what the cell holds" } else { "is added to the cell" };
         return (letter == b'R').then(|| format!("value of the offset: it {how}"));
     }
+    let along = match letter {
+        b'I' => Some('X'),
+        b'J' => Some('Y'),
+        b'K' => Some('Z'),
+        _ => None,
+    };
+    if let Some(along) = along {
+        if here.has_code(Meaning::ScalingOn) {
+            return Some(format!("{along} of the centre of scaling"));
+        }
+        if here.has_code(Meaning::StrokeCheckOn) {
+            return Some(format!("lower face of the box along {along}, machine coordinate"));
+        }
+    }
     if here.cycle().is_some() {
         let whence = if here.is_absolute() { "absolute" } else { "counted from the initial level" };
         return match letter {
@@ -192,8 +209,6 @@ fn geometry(here: &Here, letter: u8, value: f64) -> Option<String> {
         b'R' if value < 0.0 => "radius of the arc, minus for the arc of more than 180 deg".to_owned(),
         b'R' => "radius of the arc of up to 180 deg".to_owned(),
         _ if here.has(b'R') => "without effect: R gives the arc".to_owned(),
-        b'I' => "centre of the arc, counted from its start along X".to_owned(),
-        b'J' => "centre of the arc, counted from its start along Y".to_owned(),
-        _ => "centre of the arc, counted from its start along Z".to_owned(),
+        _ => format!("centre of the arc, counted from its start along {}", along.unwrap_or('Z')),
     })
 }

@@ -1,24 +1,13 @@
 //! What a block leaves to the next one, value by value, and what it changed.
 //!
-//! Fields of the state that this file does not know by name are shown as they are: none is left out.
+//! The state is taken apart field by field, so that the compiler asks for a line here when it gets a new one.
 
 use base::{AXES, AxisSet, Point};
-use dialect::Control;
+use dialect::{Control, VariableMeaning};
 use machine::MachineAxis;
-use meaning::State;
+use meaning::{Corner, Interrupt, Spindle, State, StrokeBox, Transform};
 
 use super::quantity::{coordinate, plain};
-
-/// Fields that have a line of their own below, or none because they say nothing of the block (its own number).
-#[rustfmt::skip]
-const KNOWN: &[&str] = &[
-    "groups", "feed", "spindle", "tool", "index", "h", "d", "machine", "base_origin", "common_shift", "universal_zero",
-    "length", "length_due", "displacement", "cycle", "unknown", "sequence", "miscellaneous", "block_control",
-    "feed_control", "memory_mark",
-];
-
-/// Fields of the cycle's data that have a line of their own below.
-const KNOWN_OF_CYCLE: &[&str] = &["initial", "r", "bottom", "peck", "dwell"];
 
 /// One value of the state.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -59,105 +48,141 @@ pub fn codes_in_force(control: &Control, state: &State) -> Vec<(u8, String)> {
     control.shown_groups().map(|(index, group)| (group.number, control.g_name(state.groups.0[index]))).collect()
 }
 
+/// The values so far, and what is needed to name and show one more.
+struct List<'l> {
+    axes: &'l [MachineAxis],
+    values: Vec<(String, String)>,
+}
+
 fn values(control: &Control, axes: &[MachineAxis], moment: Moment) -> Vec<(String, String)> {
     let Moment { state, at, program } = moment;
-    let mut list = Vec::new();
+    let State { groups, spindle, tool, index, h, d, unknown, .. } = state;
+    let mut list = List { axes, values: Vec::new() };
     for (index, group) in control.shown_groups() {
-        let unknown = state.unknown.group(index);
-        let code = if unknown { "unknown".to_owned() } else { control.g_name(state.groups.0[index]) };
-        list.push((format!("group {:02} {}", group.number, group.name), code));
+        let code = if unknown.group(index) { "unknown".to_owned() } else { control.g_name(groups.0[index]) };
+        list.add(format!("group {:02} {}", group.number, group.name), code);
     }
-    let word = |letter: u8, value: String| if state.unknown.word(letter) { "unknown".to_owned() } else { value };
-    list.push(("F".to_owned(), word(b'F', feed(state))));
-    let numbers = [(b'S', state.spindle), (b'T', state.tool), (b'B', state.index), (b'H', state.h), (b'D', state.d)];
-    for (letter, value) in numbers {
-        list.push((char::from(letter).to_string(), word(letter, value.to_string())));
+    let word = |letter: u8, value: String| if unknown.word(letter) { "unknown".to_owned() } else { value };
+    list.add("F", word(b'F', feed(state)));
+    for (letter, value) in [(b'S', spindle), (b'T', tool), (b'B', index), (b'H', h), (b'D', d)] {
+        list.add(char::from(letter), word(letter, value.to_string()));
     }
-    list.push(("length offset".to_owned(), coordinate(state.length / 1e6)));
-    list.push(("length offset still to be moved".to_owned(), coordinate(state.length_due / 1e6)));
-    let counts = |point: &Point| point.map(|value| value / 1e6);
-    points(axes, "machine", at, state.unknown.axes, &mut list);
-    points(axes, "program", program, state.unknown.axes, &mut list);
-    points(axes, "base origin", &counts(&state.base_origin), state.unknown.origins, &mut list);
-    points(axes, "shift of all systems", &counts(&state.common_shift), AxisSet::NONE, &mut list);
-    points(axes, "zero of the UNIVERSAL display", &counts(&state.universal_zero), AxisSet::NONE, &mut list);
-    points(axes, "displacement", &counts(&state.displacement), AxisSet::NONE, &mut list);
-    let level = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |counts| coordinate(counts / 1e6));
-    let cycle = &state.cycle;
-    list.push(("cycle: initial level (machine, without length offset)".to_owned(), coordinate(cycle.initial / 1e6)));
-    list.push(("cycle: R level".to_owned(), level(cycle.r)));
-    list.push(("cycle: bottom".to_owned(), level(cycle.bottom)));
-    list.push(("cycle: Q".to_owned(), coordinate(cycle.peck / 1e6)));
-    list.push(("cycle: dwell".to_owned(), format!("{} s", plain(cycle.dwell, 3))));
-    list.push(("M last commanded".to_owned(), state.miscellaneous.to_string()));
-    list.push(("#3003".to_owned(), state.block_control.to_string()));
-    list.push(("#3004".to_owned(), state.feed_control.to_string()));
-    for (name, value) in fields(&format!("{cycle:?}")) {
-        if !KNOWN_OF_CYCLE.contains(&name.as_str()) {
-            other(axes, &format!("cycle: {}", name.replace('_', " ")), &value, &mut list);
-        }
-    }
-    for (name, value) in fields(&format!("{state:?}")) {
-        if !KNOWN.contains(&name.as_str()) {
-            other(axes, &name.replace('_', " "), &value, &mut list);
-        }
-    }
-    list
+    list.add("length offset", coordinate(state.length / 1e6));
+    list.add("length offset still to be moved", coordinate(state.length_due / 1e6));
+    list.places("machine", at, unknown.axes);
+    list.places("program", program, unknown.axes);
+    list.rest(control, state);
+    list.values
 }
 
-/// A value known by what the compiler prints of it: structures field by field, points axis by axis, sets by letters.
-fn other(axes: &[MachineAxis], name: &str, value: &str, list: &mut Vec<(String, String)>) {
-    let value = value.strip_prefix("Some(").and_then(|rest| rest.strip_suffix(')')).unwrap_or(value);
-    if value == "None" {
-        return list.push((name.to_owned(), "-".to_owned()));
+impl List<'_> {
+    fn add(&mut self, name: impl ToString, value: String) {
+        self.values.push((name.to_string(), value));
     }
-    let within = fields(value);
-    if !within.is_empty() {
-        // Where nothing is mirrored its line means nothing.
-        let plain = within.iter().any(|(field, value)| field == "mirror" && value == "false");
-        for (field, value) in within.iter().filter(|(field, _)| !(plain && field == "line")) {
-            other(axes, &format!("{name}: {}", field.replace('_', " ")), value, list);
+
+    /// A point in mm and degrees, axis by axis.
+    fn places(&mut self, name: &str, point: &Point, unknown: AxisSet) {
+        for (index, axis) in self.axes.iter().enumerate().take(AXES) {
+            let value = if unknown.has(index) { "unknown".to_owned() } else { coordinate(point[index]) };
+            self.add(format!("{name} {}", char::from(axis.letter)), value);
         }
-        return;
     }
-    let inside = |open: &str, close| value.strip_prefix(open).and_then(|rest: &str| rest.strip_suffix(close));
-    if let Some(bits) = inside("AxisSet(", ')').and_then(|bits| bits.parse().ok()) {
-        let set = AxisSet(bits);
-        let letters: String = axes
-            .iter()
-            .enumerate()
-            .filter(|(axis, _)| set.has(*axis))
-            .map(|(_, axis)| char::from(axis.letter))
-            .collect();
-        list.push((name.to_owned(), if letters.is_empty() { "-".to_owned() } else { letters }));
-        return;
+
+    /// A point in counts.
+    fn counts(&mut self, name: &str, point: &Point, unknown: AxisSet) {
+        self.places(name, &point.map(|value| value / 1e6), unknown);
     }
-    let counts: Option<Vec<f64>> =
-        inside("[", ']').map(|list| list.split(',').filter_map(|number| number.trim().parse().ok()).collect());
-    // Of a list of three the axes are the first three.
-    match counts.filter(|counts| matches!(counts.len(), 3 | AXES)) {
-        // Lengths of the state are counts.
-        Some(counts) => {
-            for (axis, counts) in axes.iter().zip(counts) {
-                list.push((format!("{name} {}", char::from(axis.letter)), coordinate(counts / 1e6)));
+
+    fn set(&mut self, name: &str, set: AxisSet) {
+        let axes = self.axes.iter().enumerate().filter(|(axis, _)| set.has(*axis));
+        let letters: String = axes.map(|(_, axis)| char::from(axis.letter)).collect();
+        self.add(name, or_none((!letters.is_empty()).then_some(letters)));
+    }
+
+    fn switch(&mut self, name: &str, on: bool) {
+        self.add(name, if on { "on" } else { "off" }.to_owned());
+    }
+
+    /// What stands beside the codes, the words and the present place.
+    fn rest(&mut self, control: &Control, state: &State) {
+        #[rustfmt::skip]
+        let State {
+            // Shown already, or nothing that a block says of itself.
+            groups: _, feed: _, spindle: _, tool: _, index: _, h: _, d: _, machine: _, length: _, length_due: _,
+            sequence: _, memory_mark: _,
+            base_origin, common_shift, universal_zero, displacement, cycle, miscellaneous, skip, block_control,
+            feed_control, reference, interrupt, buffering, corner, stroke, transform, spindle_direction, unknown,
+        } = state;
+        self.counts("base origin", base_origin, unknown.origins);
+        self.counts("shift of all systems", common_shift, AxisSet::NONE);
+        self.counts("zero of the UNIVERSAL display", universal_zero, AxisSet::NONE);
+        self.counts("displacement", displacement, AxisSet::NONE);
+        let level = |counts: Option<f64>| or_none(counts.map(|counts| coordinate(counts / 1e6)));
+        // Without a cycle there is no such level.
+        let initial = (*cycle != Default::default()).then_some(cycle.initial);
+        self.add("cycle: initial level (machine, without length offset)", level(initial));
+        self.add("cycle: R level", level(cycle.r));
+        self.add("cycle: bottom", level(cycle.bottom));
+        self.add("cycle: Q", coordinate(cycle.peck / 1e6));
+        self.add("cycle: shift I", level(cycle.shift.map(|[i, _]| i)));
+        self.add("cycle: shift J", level(cycle.shift.map(|[_, j]| j)));
+        self.add("cycle: dwell", format!("{} s", plain(cycle.dwell, 3)));
+        self.add("M last commanded", miscellaneous.to_string());
+        let controls = [(VariableMeaning::BlockControl, block_control), (VariableMeaning::FeedControl, feed_control)];
+        for (meaning, bits) in controls {
+            if let Some((number, _)) = control.user_macro.range_of(meaning) {
+                self.add(format!("#{number}"), bits.to_string());
             }
         }
-        None if !value.starts_with('[') => list.push((name.to_owned(), shortened(value))),
-        None => {
-            let parts = value.trim_matches(['[', ']']).split(',').filter_map(|part| part.trim().parse::<f64>().ok());
-            let parts: Vec<_> = parts.map(|counts| coordinate(counts / 1e6)).collect();
-            list.push((name.to_owned(), shortened(&parts.join(" "))));
+        self.counts("end of the last skip move", skip, AxisSet::NONE);
+        self.set("reference points established", reference.established);
+        self.set("intermediate points remembered", reference.remembered);
+        self.counts("intermediate point", &reference.via, AxisSet::NONE);
+        self.add(
+            "an interrupt goes on at",
+            or_none(interrupt.as_ref().map(Interrupt::line).map(|n| format!("line {n}"))),
+        );
+        self.switch("buffering", *buffering);
+        let corner = match corner {
+            Corner::NotProgrammed => None,
+            Corner::Arc => Some("on an arc"),
+            Corner::Intersection => Some("through the intersection"),
+        };
+        self.add("outside corners", or_none(corner.map(str::to_owned)));
+        self.stroke(stroke);
+        self.transform(transform);
+        let direction = spindle_direction.map(|direction| match direction {
+            Spindle::Forward => "forward".to_owned(),
+            Spindle::Reverse => "reverse".to_owned(),
+            Spindle::Stop | Spindle::Orient => "none".to_owned(),
+        });
+        self.add("direction of the spindle", or_none(direction));
+    }
+
+    fn stroke(&mut self, stroke: &StrokeBox) {
+        self.set("stroke box: axes", stroke.axes);
+        for (name, faces) in [("low", stroke.low), ("high", stroke.high)] {
+            for (letter, counts) in ['X', 'Y', 'Z'].into_iter().zip(faces) {
+                self.add(format!("stroke box: {name} {letter}"), coordinate(counts / 1e6));
+            }
+        }
+    }
+
+    fn transform(&mut self, transform: &Transform) {
+        self.set("scaling: axes", transform.scaled);
+        self.add("scaling: factor", plain(transform.factor, 3));
+        self.counts("scaling: centre", &transform.center, AxisSet::NONE);
+        self.switch("mirror", transform.mirror);
+        self.set("mirror: axes", transform.mirrored);
+        let axes = self.axes.iter().enumerate().filter(|(axis, _)| transform.mirrored.has(*axis));
+        for (index, axis) in axes {
+            self.add(format!("mirror: about {}", char::from(axis.letter)), coordinate(transform.line[index] / 1e6));
         }
     }
 }
 
-/// A value that has no form of its own, short enough for its line.
-fn shortened(value: &str) -> String {
-    const MOST: usize = 24;
-    match value.char_indices().nth(MOST) {
-        Some((at, _)) => format!("{}…", value.get(..at).unwrap_or_default()),
-        None => value.to_owned(),
-    }
+fn or_none(value: Option<String>) -> String {
+    value.unwrap_or_else(|| "-".to_owned())
 }
 
 fn feed(state: &State) -> String {
@@ -165,45 +190,5 @@ fn feed(state: &State) -> String {
     match state.feed.nanometres {
         0.0 => "-".to_owned(),
         nanometres => format!("{} {unit}", plain(nanometres / 1e6, 4)),
-    }
-}
-
-fn points(axes: &[MachineAxis], what: &str, point: &Point, unknown: AxisSet, list: &mut Vec<(String, String)>) {
-    for (index, axis) in axes.iter().enumerate().take(AXES) {
-        let value = if unknown.has(index) { "unknown".to_owned() } else { coordinate(point[index]) };
-        list.push((format!("{what} {}", char::from(axis.letter)), value));
-    }
-}
-
-/// The fields of a structure as the compiler prints it: `Name { field: value, field: value }`.
-fn fields(printed: &str) -> Vec<(String, String)> {
-    let inside = printed.split_once('{').map_or("", |(_, rest)| rest).trim_end().trim_end_matches('}');
-    let (mut found, mut depth, mut from) = (Vec::new(), 0i32, 0);
-    for (at, letter) in inside.char_indices().chain([(inside.len(), ',')]) {
-        match letter {
-            '{' | '[' | '(' => depth += 1,
-            '}' | ']' | ')' => depth -= 1,
-            ',' if depth == 0 => {
-                if let Some((name, value)) = inside.get(from..at).and_then(|field| field.split_once(':')) {
-                    found.push((name.trim().to_owned(), value.trim().to_owned()));
-                }
-                from = at + 1;
-            }
-            _ => {}
-        }
-    }
-    found
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_fields_of_a_structure_are_found_whatever_they_hold() {
-        let found = fields("S { a: [1, 2], b: T { c: (1, 2), d: None }, e: Some(3) }");
-        let names: Vec<_> = found.iter().map(|(name, value)| format!("{name}={value}")).collect();
-        assert_eq!(names, ["a=[1, 2]", "b=T { c: (1, 2), d: None }", "e=Some(3)"]);
-        assert!(fields("Nothing").is_empty());
     }
 }

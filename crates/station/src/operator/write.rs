@@ -49,7 +49,8 @@ impl<L: Library> Operator<L> {
     fn write_offset(&mut self, column: OffsetColumn, number: u32, mm: f64) -> Result<(), String> {
         let control = self.session.configuration().control.clone();
         let memory = self.session.interpreter_mut().memory_mut();
-        memory::write_named_offset(&control, memory, column, number, mm).map_err(|error| error.0)
+        memory::write_offset(&control, memory, memory::named_column(&control, column), number, mm)
+            .map_err(|error| error.0)
     }
 
     fn write_work(&mut self, system: &str, letter: u8, mm: f64) -> Result<(), String> {

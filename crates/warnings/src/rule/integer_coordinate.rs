@@ -88,12 +88,9 @@ impl IntegerCoordinate {
             _ => {}
         }
         let key = (command.place.source, command.place.block.start);
-        if letters == 0 || !self.seen.insert(key) {
-            return;
-        }
-        let letter = b'A' + letters.trailing_zeros() as u8;
         // In a canned cycle's words and the like the axes come last: they are what goes astray.
-        let letter = (b'A'..=b'Z').rev().find(|&axis| letters & letter_bit(axis) != 0).unwrap_or(letter);
+        let Some(last) = letters.checked_ilog2().filter(|_| self.seen.insert(key)) else { return };
+        let letter = b'A' + last as u8;
         let is_pattern =
             matches!(wording.one_shot, Some(Meaning::BoltCircle | Meaning::ArcPattern | Meaning::LinePattern));
         let turns = self.rotary & letter_bit(letter) != 0 || is_pattern && matches!(letter, b'J' | b'K');

@@ -1,0 +1,9 @@
+WHILE [1 EQ 2] DO 1
+/END 1
+X1.
+/DO 2
+END 1
+GOTO 5
+/DO 1
+X2.
+N5 X3.

@@ -1,0 +1,164 @@
+//! Pulling: operations out of the block at the queue's front, blocks into the queue behind it.
+
+use base::Place;
+use dialect::M01OffOutput;
+
+use super::Interpreter;
+use crate::command::{Body, Finish};
+use crate::expand::{Expansion, Surroundings};
+use crate::operation::{Act, Close, EndKind, Operation};
+use crate::pull::{Barrier, BarrierKind, Pull};
+use crate::reader::{Read, empty_command};
+use crate::state::State;
+use crate::supply::WINDOW;
+
+/// What the block being executed has next.
+enum Front {
+    /// An operation.
+    Operation,
+    /// The question whether the main program runs again.
+    Question,
+}
+
+impl Interpreter {
+    /// The next operation. It stays as it is until the next call.
+    #[expect(clippy::should_implement_trait, reason = "a pull has barriers, which an iterator does not")]
+    pub fn next(&mut self) -> Pull<&Operation> {
+        if let Some(barrier) = self.barrier {
+            return Pull::Barrier(barrier);
+        }
+        loop {
+            if self.measures {
+                self.measures = false;
+                return Pull::Barrier(self.ask(BarrierKind::SkipPosition));
+            }
+            if self.waits_for_start {
+                self.waits_for_start = false;
+                return Pull::Barrier(self.ask(BarrierKind::CycleStart));
+            }
+            match self.next_of_front() {
+                Some(Front::Operation) => return Pull::Item(&self.operation),
+                Some(Front::Question) => return Pull::Barrier(self.ask(BarrierKind::RunAgain)),
+                None => {}
+            }
+            if let Some(barrier) = self.read_ahead() {
+                return Pull::Barrier(barrier);
+            }
+            if self.tell_note() {
+                return Pull::Item(&self.operation);
+            }
+            match self.queue.front() {
+                Some(command) => self.expansion = Some(Expansion::new(command)),
+                None => return Pull::End,
+            }
+        }
+    }
+
+    /// Makes an operation of the next write to a variable, if the blocks read before it are done.
+    fn tell_note(&mut self) -> bool {
+        let due = match (self.reader.notes.front(), self.queue.front()) {
+            (Some(note), Some(command)) => note.before <= command.block && !matches!(command.body, Body::Start(_)),
+            (Some(_), None) => self.started,
+            (None, _) => false,
+        };
+        let Some(note) = self.reader.notes.pop_front_if(|_| due) else { return false };
+        self.operation =
+            Operation { block: note.before, place: note.place, act: Act::Set(note.value), ..Operation::default() };
+        true
+    }
+
+    /// Makes the next operation of the block being executed; the block leaves the queue when it is done.
+    fn next_of_front(&mut self) -> Option<Front> {
+        let around = self.surroundings();
+        let expansion = self.expansion.as_mut()?;
+        let command = self.queue.front()?;
+        if !expansion.next(command, &around, &mut self.operation) {
+            self.expansion = None;
+            self.queue.pop();
+            self.reader.ahead = 0;
+            return None;
+        }
+        self.measures = self.operation.until_signal;
+        if let Act::Close(close) = self.operation.act {
+            if matches!(command.finish, Finish::End(EndKind::M99 | EndKind::Loop)) {
+                match self.runs_again.take() {
+                    None => {
+                        // The close comes again when the question is answered.
+                        expansion.close_again();
+                        return Some(Front::Question);
+                    }
+                    Some(true) => self.operation.act = Act::Close(Close::Next),
+                    Some(false) => {}
+                }
+            }
+            self.waits_for_start = matches!(close, Close::Stop(_));
+            if matches!(self.operation.act, Act::Close(Close::End(_))) {
+                self.reader.end();
+            }
+        }
+        // The manual part of a cycle.
+        self.waits_for_start |= matches!(self.operation.act, Act::Await(Some(_)));
+        Some(Front::Operation)
+    }
+
+    fn surroundings(&self) -> Surroundings {
+        let setting = &self.reader.setting;
+        Surroundings {
+            axes: setting.facts.axes.len(),
+            optional_stop: setting.switches.optional_stop,
+            sends_m01: setting.fitting.policies.m01_off_output == M01OffOutput::Code,
+            spindle_codes: setting.control.cycle_codes,
+            m_digits: setting.facts.codes.digits[0],
+        }
+    }
+
+    /// Fills the queue to the control's depth: the block to execute and those read ahead of it.
+    fn read_ahead(&mut self) -> Option<Barrier> {
+        // Checking on, a block must be judged by the later stages before the next one is read.
+        let [blocks, _, buffering] = self.reader.setting.control.read_ahead;
+        let depth = |state: &State| if state.buffering { buffering } else { blocks } + 1;
+        let goes_on = self.reader.goes_on;
+        while self.queue.len() < (if goes_on { 1 } else { depth(&self.reader.state) })
+            && !self.queue.back().is_some_and(|command| command.stops_reading)
+        {
+            match self.reader.read(self.queue.slot()) {
+                Read::Command => {
+                    if !self.started {
+                        self.start();
+                    }
+                    self.queue.take_in();
+                }
+                Read::NeedBytes { source, offset } => {
+                    return Some(self.ask(BarrierKind::NeedBytes { source, offset, len: WINDOW }));
+                }
+                Read::NeedProgram { number } => return Some(self.ask(BarrierKind::NeedProgram { number })),
+                // Motion must have ended: the blocks in the queue come first.
+                Read::NeedValue(quantity) if quantity.waits_for_motion() && self.queue.len() > 0 => break,
+                Read::NeedValue(quantity) => return Some(self.ask(BarrierKind::NeedValue(quantity))),
+                Read::Pause if self.queue.len() > 0 => break,
+                Read::Pause => self.reader.ahead = 0,
+                Read::Ended => break,
+            }
+        }
+        None
+    }
+
+    /// The first block has been read, so the program's name is known: the program begins before it.
+    fn start(&mut self) {
+        self.started = true;
+        let first = *self.queue.slot();
+        let start = self.queue.slot();
+        *start = empty_command(&self.start_state);
+        start.place = Place { program: first.place.program, source: first.place.source, ..Place::default() };
+        start.body = Body::Start(self.start_state.groups);
+        self.queue.take_in();
+        *self.queue.slot() = first;
+    }
+
+    pub(super) fn ask(&mut self, kind: BarrierKind) -> Barrier {
+        self.barriers += 1;
+        let barrier = Barrier { id: self.barriers, kind };
+        self.barrier = Some(barrier);
+        barrier
+    }
+}
