@@ -23,7 +23,7 @@ IN_TESTS := disallowed-methods expect-used unwrap-used panic
 lint: cargo # tests may panic, read files, and take the standard library's sine as a second opinion; fuzz/ needs no C++ here
 	cargo clippy --workspace --locked -- -D warnings
 	cargo clippy --workspace --all-targets --locked -- -D warnings $(addprefix -A clippy::,$(IN_TESTS))
-	CUSTOM_LIBFUZZER_PATH=none cargo check --manifest-path fuzz/Cargo.toml --locked --target-dir $(or $(CARGO_TARGET_DIR),target)
+	CUSTOM_LIBFUZZER_PATH=/dev/null cargo check --manifest-path fuzz/Cargo.toml --locked --target-dir $(or $(CARGO_TARGET_DIR),target)
 
 unit: cargo
 	cargo test --workspace --all-targets --locked --no-fail-fast

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Fuzzes one target (read, interpret, macros, tape) for FUZZ_SECONDS (60) with libFuzzer; a finding stays in fuzz/artifacts/.
+# Fuzzes one target (read, interpret, macros, tape) for FUZZ_SECONDS (60), or with FUZZ_RUNS inputs, each of up to FUZZ_LENGTH (256)
+# bytes, with libFuzzer; a finding stays in fuzz/artifacts/.
 # Runs on the stable compiler; the C++ part of libFuzzer needs a C++ compiler.
 set -euo pipefail
 cd "$(dirname "$0")/../fuzz"
@@ -18,11 +19,13 @@ done
 host=$(rustc -vV | sed -n "s/^host: //p")
 built=${CARGO_TARGET_DIR:-target}/$host/release/$target
 log=artifacts/$target.log
-if "$built" -max_len=256 -timeout=10 -max_total_time="${FUZZ_SECONDS:-60}" -print_final_stats=1 -dict=words.dict \
+limit=(-max_total_time="${FUZZ_SECONDS:-60}")
+[ -z "${FUZZ_RUNS:-}" ] || limit=(-runs="$FUZZ_RUNS")
+if "$built" -max_len="${FUZZ_LENGTH:-256}" -timeout=10 "${limit[@]}" -print_final_stats=1 -dict=words.dict \
     -artifact_prefix="artifacts/$target-" "$corpus" >"$log" 2>&1; then
     runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
     rate=$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")
-    echo "fuzz $target: $runs programs, $rate a second, nothing found"
+    echo "fuzz $target: $runs programs of up to ${FUZZ_LENGTH:-256} bytes, $rate a second, nothing found"
 else
     grep -m1 -A4 -E 'panicked|ERROR' "$log" || true
     echo "fuzz $target: found something; the input is the newest file fuzz/artifacts/$target-*, all output is in fuzz/$log"

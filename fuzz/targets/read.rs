@@ -16,6 +16,7 @@ fuzz_target!(|input: &[u8]| {
         lower_case: if bit(1) { LowerCase::Fold } else { LowerCase::Refuse },
         colon: if bit(2) { Colon::Refuse } else { Colon::ProgramNumber },
         block_length: if bit(3) { u32::MAX } else { 40 },
+        ..Grammar::default()
     };
     let sizes: &[usize] = match mode >> 4 & 3 {
         0 => &[1],

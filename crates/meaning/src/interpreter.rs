@@ -243,7 +243,7 @@ impl Interpreter {
         self.runs_again = None;
         self.waits_for_start = false;
         self.measures = false;
-        self.start_state = self.reader.state;
+        self.start_state = *self.reader.state;
     }
 
     /// Texts have changed: everything remembered of them is forgotten.

@@ -62,10 +62,10 @@ pub(crate) struct Reader {
     pub supply: Supply,
     pub names: Names,
     pub calls: Calls,
-    /// The state after the block read last.
-    pub state: State,
+    /// The state after the block read last. It changes places with the one in the making, so that neither is copied.
+    pub state: Box<State>,
     /// The state after the block being read, in the making.
-    next: State,
+    next: Box<State>,
     /// Go on after an alarm, to find later ones.
     pub goes_on: bool,
     /// Jumps allowed without motion, dwell or stop.
@@ -113,8 +113,8 @@ impl Reader {
             supply: Supply::new(),
             names: Names::default(),
             calls: Calls::new(levels),
-            state,
-            next: state,
+            state: Box::new(state),
+            next: Box::new(state),
             goes_on: false,
             loop_limit: 1_000_000,
             tells_variables: false,
@@ -280,7 +280,7 @@ impl Reader {
     fn take_block(&mut self, frame: &Frame, command: &mut Command) -> Option<Read> {
         let place = self.place_of_block(frame);
         self.prepare(command, place);
-        self.next = self.state;
+        *self.next = *self.state;
         if place.sequence > 0 {
             self.next.sequence = place.sequence;
         }
@@ -292,8 +292,8 @@ impl Reader {
                     Ok(()) => {
                         let memory = &mut self.setting.memory;
                         self.next.memory_mark ^= command.write.map_or(0, |write| memory.write(write));
-                        self.state = self.next;
-                        command.after = self.next;
+                        std::mem::swap(&mut self.state, &mut self.next);
+                        command.after = *self.state;
                         self.count(command);
                         if flow == Flow::Next {
                             self.call_after_move(command);
@@ -368,7 +368,7 @@ impl Reader {
         }
         self.prepare(command, alarm.place);
         command.body = Body::Alarm(alarm);
-        command.after = self.state;
+        command.after = *self.state;
         self.blocks += 1;
         Some(Read::Command)
     }
@@ -387,7 +387,7 @@ impl Reader {
             },
         );
         command.finish = Finish::End(EndKind::Text);
-        command.after = self.state;
+        command.after = *self.state;
         command.side = Side::Off;
         command.frame = *frame;
         command.here = frame.cursor;

@@ -18,10 +18,10 @@ impl Interpreter {
         self.restore(machine, refused);
         let setting = &self.reader.setting;
         let (control, fitting) = (setting.control.as_ref(), &setting.fitting);
-        let before = self.reader.state;
+        let before = *self.reader.state;
         let mut fresh = State::power_on(before.groups, before.machine, self.base_origin);
         fresh.reference.established = AxisSet::NONE;
-        self.reader.state = state_after(setting, occasion, &before, &fresh);
+        *self.reader.state = state_after(setting, occasion, &before, &fresh);
         let initial = |item| fitting.fate(control, item, occasion) == Fate::Initial;
         let (blanks, rewinds) = (initial(StateItem::VolatileVariables), initial(StateItem::ProgramPointer));
         if blanks {
@@ -30,7 +30,7 @@ impl Interpreter {
         if rewinds {
             self.reader.rewind();
         }
-        self.start_state = self.reader.state;
+        self.start_state = *self.reader.state;
         if occasion == Occasion::PowerOn {
             self.stored = self.reader.state.groups;
         }
@@ -40,7 +40,7 @@ impl Interpreter {
     pub fn lose_reference_points(&mut self, axes: AxisSet) {
         let established = &mut self.reader.state.reference.established;
         *established = established.without(axes);
-        self.start_state = self.reader.state;
+        self.start_state = *self.reader.state;
     }
 
     /// The origin of the base work system, now and at every later power-on (counts).
@@ -49,7 +49,7 @@ impl Interpreter {
         {
             (*now, *later) = (counts, counts);
         }
-        self.start_state = self.reader.state;
+        self.start_state = *self.reader.state;
     }
 
     /// Settings that follow the codes last executed, such as the unit of input, are written.
@@ -84,7 +84,7 @@ impl Interpreter {
         let state = self.state_so_far(!refused);
         let command = self.queue.front().filter(|command| command.place.line > 0).copied();
         self.drop_queue();
-        self.reader.state = state;
+        *self.reader.state = state;
         self.reader.stand_at(to_counts(machine));
         let stays = self.reader.setting.fitting.policies.reset_pointer == ResetPointer::Stays;
         match command {
@@ -94,7 +94,7 @@ impl Interpreter {
             _ => self.reader.rewind(),
         }
         self.started = false;
-        self.start_state = self.reader.state;
+        self.start_state = *self.reader.state;
     }
 
     /// The state after the executing block if it has `begun`, after the block before it if not.
@@ -109,9 +109,9 @@ impl Interpreter {
     /// Drops the queue; reading goes on in this state, with the axes at `machine` (mm, degrees).
     pub(crate) fn go_on_from(&mut self, state: State, machine: &Point) {
         self.drop_queue();
-        self.reader.state = state;
+        *self.reader.state = state;
         self.reader.stand_at(to_counts(machine));
-        self.start_state = self.reader.state;
+        self.start_state = *self.reader.state;
     }
 
     /// CYCLE START after a program's end that did not rewind: reading goes on with the block after it.

@@ -110,7 +110,7 @@ impl Reader {
         self.begin(head, command);
         command.finish = Finish::End(EndKind::Loop);
         command.stops_reading = true;
-        command.after = self.state;
+        command.after = *self.state;
         command.side = Side::Off;
         self.blocks += 1;
         Read::Command

@@ -91,7 +91,7 @@ impl Reader {
         let place = self.place_of(line);
         let wrote = self.notes.back().filter(|note| note.place == place).map(|note| note.value);
         let to = if let Next::At(cursor) = next { cursor } else { &line.next };
-        let (state, goes_to) = (self.state, to.line);
+        let (state, goes_to) = (*self.state, to.line);
         self.records.statement(StatementRead { place, state, wrote, goes_to });
     }
 
