@@ -42,6 +42,7 @@ pub use policy::{
 };
 pub use row::{
     Certainty, Class, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,
+    Takes,
 };
 pub use station::{Key, ModeKind, ModeRow, StationTable};
 pub use word_order::put_in_order;
