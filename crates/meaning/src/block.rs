@@ -4,8 +4,8 @@
 //! the movement · 5 what ends the block. A refused block leaves everything as it was: the work is done on copies.
 
 use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
-use dialect::{Control, Grouping, Meaning};
-use syntax::{Block, Cursor};
+use dialect::{Control, Meaning};
+use syntax::{Block, Cursor, Grouping};
 
 use crate::command::Command;
 use crate::jump::{Calls, Found};
@@ -242,7 +242,7 @@ impl Reading<'_> {
 
     /// Refuses an O word behind other words where it is a mere label.
     fn refuse_stray_label(&self) -> Result<(), Alarm> {
-        let is_label = self.control().grouping == Grouping::Files;
+        let is_label = self.control().grammar.grouping == Grouping::Files;
         match self.words.word(b'O').filter(|_| is_label) {
             Some(word) if word.extent.at > self.words.block.words.first().map_or(0, |first| first.extent.at) => {
                 Err(self.words.alarm_at(Condition::LabelPlace, word))
