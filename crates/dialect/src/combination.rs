@@ -24,7 +24,7 @@ pub struct Combination {
 
 impl Combination {
     /// The first rule that a block's codes break: the condition and the index of the code that breaks it.
-    fn check(self, control: &Control, rows: &[u8]) -> Result<(), (Condition, usize)> {
+    pub(crate) fn check(self, control: &Control, rows: &[u8]) -> Result<(), (Condition, usize)> {
         let row = |index: usize| control.g_codes.get(usize::from(rows[index]));
         let is = |index: usize, class: Class| row(index).is_some_and(|row| row.class == class);
         let of = |class: Class| (0..rows.len()).filter(move |&index| is(index, class));
