@@ -46,6 +46,10 @@ conditions! {
     CommentOpen = "comment-open",
     /// A comment is closed that was never opened.
     CommentClose = "comment-close",
+    /// A block-delete sign behind words, where it may stand at the head of a block only.
+    BlockDeletePlace = "block-delete-place",
+    /// An O word behind other words, where it is a label.
+    LabelPlace = "label-place",
     /// The block is longer than the control reads. Values: characters allowed.
     BlockTooLong = "block-too-long",
     /// A row of tape whose number of holes is wrong. Values: row, the characters it may have been.

@@ -55,6 +55,19 @@ pub struct Diagnostic {
     pub label: String,
     /// Other places that belong to it.
     pub labels: Vec<Label>,
+    /// How the block can be written instead.
+    pub fix: Option<Correction>,
+}
+
+/// A block as it can be written.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Correction {
+    /// The characters that it replaces.
+    pub span: Span,
+    /// What takes their place: blocks, one a line.
+    pub text: String,
+    /// The programmer evidently meant this; otherwise it is a guess.
+    pub safe: bool,
 }
 
 /// Another place that belongs to a finding.

@@ -13,7 +13,7 @@ pub mod units;
 pub use alarm::Alarm;
 pub use axis::{AXES, AxisSet, Point};
 pub use condition::Condition;
-pub use diagnostic::{AlarmName, Diagnostic, Label, Severity};
+pub use diagnostic::{AlarmName, Correction, Diagnostic, Label, Severity};
 pub use number::Decimal;
 pub use place::{Place, ProgramId, SourceId, Span};
 pub use units::{MmPerMinute, Seconds, UnitSystem};

@@ -160,6 +160,9 @@ pub struct CheckArguments {
     /// A warning that is not given, or all; in a program (allow: NAME) says so for its block
     #[arg(long, value_name = "NAME")]
     pub allow: Vec<String>,
+    /// Write refused blocks as the control takes them, where it is evident what is meant; what is left is then told
+    #[arg(long)]
+    pub fix: bool,
     /// Run under every combination of the parameters for power-on and reset, and say what differs at the machine
     #[arg(long)]
     pub all_power_on: bool,

@@ -4,6 +4,7 @@ pub mod check;
 pub mod controls;
 pub mod coverage;
 pub mod explain;
+mod fix;
 pub mod fmt;
 pub mod operate;
 pub mod plot;

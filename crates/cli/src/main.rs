@@ -7,6 +7,7 @@ mod command;
 mod failure;
 mod named_programs;
 mod output;
+mod replace;
 mod setting;
 mod show_alarm;
 mod texts;

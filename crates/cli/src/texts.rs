@@ -139,6 +139,11 @@ impl Texts {
         bytes
     }
 
+    /// True if a source is the image of a tape.
+    pub fn is_tape(&mut self, source: SourceId) -> bool {
+        matches!(self.format(source), Some(Format::Tape(_)))
+    }
+
     /// How a source is read: text or tape.
     fn format(&mut self, source: SourceId) -> Option<Format> {
         let codes = self.codes?;

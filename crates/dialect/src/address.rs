@@ -32,6 +32,8 @@ pub enum PointRule {
     No,
     /// In a dwell only.
     Dwell,
+    /// Before zeros only: `P4.` and `P4.0` are 4, `P4.5` is refused.
+    Whole,
 }
 
 /// One address letter.
@@ -53,6 +55,8 @@ pub struct Address {
     pub range: [i64; 2],
     /// Feed ranges: metric per minute, inch per minute, metric per revolution, inch per revolution.
     pub feed: [[f64; 2]; 4],
+    /// 0 takes the feed away, whatever the range.
+    pub zero_is_none: bool,
     /// Lowest and highest time in seconds.
     pub seconds: [f64; 2],
     /// Where a point may stand.

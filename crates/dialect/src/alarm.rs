@@ -3,6 +3,7 @@
 use base::{Alarm, AlarmName, Condition, Diagnostic, Severity};
 
 use crate::control::Control;
+use crate::fix::Fix;
 use crate::row::Origin;
 
 /// An alarm of the control.
@@ -24,6 +25,7 @@ pub(crate) struct Sentences {
     pub what: String,
     pub why: String,
     pub help: String,
+    pub fix: Option<Fix>,
 }
 
 impl Control {
@@ -52,6 +54,11 @@ impl Control {
         }
     }
 
+    /// How a block refused for this condition is written anew.
+    pub(crate) fn fix_of(&self, condition: Condition) -> Option<Fix> {
+        self.sentences.get(condition as usize)?.fix
+    }
+
     /// The alarm for people. `word` is the offending text as written, `axis` the letter and whether it turns.
     pub fn diagnose(&self, alarm: &Alarm, word: &str, axis: Option<(char, bool)>) -> Diagnostic {
         let fallback = Sentences::default();
@@ -68,6 +75,7 @@ impl Control {
             span: alarm.span,
             label: String::new(),
             labels: Vec::new(),
+            fix: None,
         }
     }
 }

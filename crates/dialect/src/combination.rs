@@ -9,7 +9,7 @@ use crate::control::Control;
 use crate::fitting::Fitting;
 use crate::meaning::Meaning;
 use crate::policy::{CycleWithMotion, OneShotCompany};
-use crate::row::Class;
+use crate::row::{Class, Takes};
 
 /// How many codes of which class may stand in a block.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -24,7 +24,7 @@ pub struct Combination {
 
 impl Combination {
     /// The first rule that a block's codes break: the condition and the index of the code that breaks it.
-    fn check(self, control: &Control, rows: &[u8]) -> Result<(), (Condition, usize)> {
+    pub(crate) fn check(self, control: &Control, rows: &[u8]) -> Result<(), (Condition, usize)> {
         let row = |index: usize| control.g_codes.get(usize::from(rows[index]));
         let is = |index: usize, class: Class| row(index).is_some_and(|row| row.class == class);
         let of = |class: Class| (0..rows.len()).filter(move |&index| is(index, class));
@@ -32,7 +32,7 @@ impl Combination {
         if let Some(solo) = of(Class::Solo).next()
             && rows.len() > 1
         {
-            // The caret stands under the code that should not be here: the other one, or the second of two alike.
+            // The caret stands under the code that wants to be alone: of two such, under the second.
             let other = of(Class::Solo).nth(1).unwrap_or(solo);
             return Err((Condition::GNotAlone, other));
         }
@@ -51,10 +51,15 @@ impl Combination {
         }
         found(Condition::GTooMany, (rows.len() > self.most_codes).then_some(self.most_codes))?;
         let exact_stop = |&index: &usize| row(index).is_some_and(|row| row.meaning == Meaning::ExactStop);
-        match movement {
-            None => found(Condition::ExactStopWithoutMovement, (0..rows.len()).find(exact_stop)),
-            Some(_) => Ok(()),
+        if movement.is_none() {
+            found(Condition::ExactStopWithoutMovement, (0..rows.len()).find(exact_stop))?;
         }
+        let takes = |index: usize| row(index).map_or(Takes::Nothing, |row| row.takes);
+        if rows.len() > 1 && (0..rows.len()).any(|index| takes(index) == Takes::AllWords) {
+            return Err((Condition::AxisWordsClaimedTwice, 1));
+        }
+        let claims = |&index: &usize| is(index, Class::Movement) || takes(index) == Takes::AxisWords;
+        found(Condition::AxisWordsClaimedTwice, (0..rows.len()).filter(claims).nth(1))
     }
 }
 

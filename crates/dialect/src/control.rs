@@ -178,6 +178,8 @@ pub struct Control {
     pub base_system: Option<u8>,
     /// M codes the machine builder decides, those of the control, those above two digits.
     pub m_ranges: [[u32; 2]; 3],
+    /// Most M codes of a block where the option for several is fitted.
+    pub most_m_codes: usize,
     /// The modal groups.
     pub groups: Vec<Group>,
     /// Which group decides what.

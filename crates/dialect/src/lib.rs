@@ -10,6 +10,7 @@ mod builtin;
 mod combination;
 mod control;
 mod fitting;
+mod fix;
 mod load;
 mod meaning;
 mod member;
@@ -30,6 +31,7 @@ pub use control::{
     Control, FeedSettings, Group, GroupCodes, GroupRule, MOST_GROUPS, NO_CODE, Roles, TapeRules, Tolerances,
 };
 pub use fitting::{Fitting, FittingError, ParameterSetting};
+pub use fix::{Fix, Refused, Rewritten};
 pub use load::{ControlFiles, load_control};
 pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};
 pub use member::AxisLetter;
@@ -42,6 +44,7 @@ pub use policy::{
 };
 pub use row::{
     Certainty, Class, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,
+    Takes,
 };
 pub use station::{Key, ModeKind, ModeRow, StationTable};
 pub use word_order::put_in_order;

@@ -11,7 +11,7 @@ mod user_macro;
 mod warnings;
 
 use data::{DataError, Document, Table};
-use syntax::{Colon, Grammar, Grouping, LowerCase, Semicolon};
+use syntax::{BlockDelete, Colon, Grammar, Grouping, LowerCase, Percent, Semicolon};
 
 use crate::combination::Combination;
 use crate::control::{Control, FeedSettings, Group, GroupRule, MOST_GROUPS, Roles, TapeRules, Tolerances};
@@ -129,6 +129,12 @@ fn grammar(root: &mut Table) -> (Grammar, bool) {
             grouping: t
                 .choice("programs", &[("o-words", Grouping::OWords), ("files", Grouping::Files)])
                 .unwrap_or_default(),
+            percent: t
+                .choice("percent", &[("end-of-tape", Percent::EndOfTape), ("ignore", Percent::Ignore)])
+                .unwrap_or_default(),
+            block_delete: t
+                .choice("block_delete", &[("anywhere", BlockDelete::Anywhere), ("head", BlockDelete::Head)])
+                .unwrap_or_default(),
             block_length: t.integer("block_length").and_then(|n| u32::try_from(n).ok()).unwrap_or(u32::MAX),
         };
         let last = t.choice("repeated_word", &[("last-wins", true), ("refuse", false)]).unwrap_or(true);
@@ -240,8 +246,14 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     let m_codes = files.read("m_codes.toml", codes::m_codes).map_err(&mut keep).ok();
     let user_macro = files.read("macro.toml", user_macro::user_macro).map_err(&mut keep).ok();
     let station = files.read("station.toml", station::station).map_err(&mut keep).ok();
-    let (Some(head), Some(parameters), Some(addresses), Some((m_ranges, m_codes)), Some(user_macro), Some(station)) =
-        (head, parameters, addresses, m_codes, user_macro, station)
+    let (
+        Some(head),
+        Some(parameters),
+        Some(addresses),
+        Some((m_ranges, most_m_codes, m_codes)),
+        Some(user_macro),
+        Some(station),
+    ) = (head, parameters, addresses, m_codes, user_macro, station)
     else {
         return Err(errors);
     };
@@ -322,6 +334,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         tape,
         base_system,
         m_ranges,
+        most_m_codes,
         groups,
         roles,
         tolerances,

@@ -42,6 +42,18 @@ pub enum Class {
     OneShot,
 }
 
+/// Which of its block's words a G code takes for itself, as a centre, a value or an argument.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Takes {
+    /// None, or as a movement takes them.
+    #[default]
+    Nothing,
+    /// The axis words: no movement and no other such code can stand beside it.
+    AxisWords,
+    /// Every word: no other code can stand beside it.
+    AllWords,
+}
+
 /// One G code.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct GCode {
@@ -53,6 +65,8 @@ pub struct GCode {
     pub division: Division,
     /// What may stand beside it, where classes decide that.
     pub class: Class,
+    /// Which words it takes for itself, where classes decide what may stand together.
+    pub takes: Takes,
     /// What it does.
     pub meaning: Meaning,
     /// Which one of several alike (work system 1 to 6), 0 otherwise.

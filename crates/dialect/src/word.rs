@@ -37,7 +37,7 @@ impl Control {
     /// # Errors
     /// A point that may not be, too many digits, a value outside the range.
     pub fn integer(&self, address: &Address, number: Decimal) -> Result<i64, Refused> {
-        if number.point && address.point != PointRule::Yes {
+        if number.point && !matches!(address.point, PointRule::Yes | PointRule::Whole) {
             return Err((Condition::PointNotAllowed, [0.0; 3]));
         }
         if address.kind == AddressKind::Code && number.digits > address.digits {
@@ -51,11 +51,25 @@ impl Control {
         Ok(value)
     }
 
-    /// A dwell's P (or X) as seconds: milliseconds without a point, seconds with one.
+    /// A dwell's P as seconds: milliseconds without a point, seconds with one where the address may have one.
+    ///
+    /// # Errors
+    /// The value lies outside the address's range, or its point has no place.
+    pub fn dwell_seconds(&self, address: &Address, number: Decimal) -> Result<f64, Refused> {
+        if address.point != PointRule::Whole {
+            return self.seconds(address, number);
+        }
+        match number.integer() {
+            Some(_) => self.seconds(address, Decimal { point: false, ..number }),
+            None => Err((Condition::PointNotAllowed, [0.0; 3])),
+        }
+    }
+
+    /// A time in seconds: milliseconds without a point, seconds with one.
     ///
     /// # Errors
     /// The value lies outside the address's range.
-    pub fn dwell_seconds(&self, address: &Address, number: Decimal) -> Result<f64, Refused> {
+    pub fn seconds(&self, address: &Address, number: Decimal) -> Result<f64, Refused> {
         let milliseconds = if number.point { number.scaled(3) } else { number.integer() };
         let seconds = milliseconds.unwrap_or(i64::MAX) as f64 / 1000.0;
         let [low, high] = address.seconds;
@@ -82,7 +96,7 @@ impl Control {
                 (if inch_tenths { NM_PER_INCH / 10 } else { NM_PER_INCH }, NM_PER_INCH, address.feed[1])
             }
         };
-        feed(number, plain, unit, range)
+        feed(address, number, plain, unit, range)
     }
 
     /// A dwell's P (or X) as turns of the spindle: thousandths (or, `whole`, turns) without a point, turns with one.
@@ -109,7 +123,7 @@ impl Control {
             UnitSystem::Metric => (self.increments[0], MM, address.feed[2]),
             UnitSystem::Inch => (self.increments[1], NM_PER_INCH, address.feed[3]),
         };
-        feed(number, increment * coarse, unit, range)
+        feed(address, number, increment * coarse, unit, range)
     }
 }
 
@@ -139,13 +153,16 @@ fn counts(number: Decimal, increment: i64, unit: i64, range: [f64; 2]) -> Result
     }
 }
 
-fn feed(number: Decimal, plain: i64, unit: i64, range: [f64; 2]) -> Result<f64, Refused> {
+fn feed(address: &Address, number: Decimal, plain: i64, unit: i64, range: [f64; 2]) -> Result<f64, Refused> {
     let nanometres = if number.point {
         number.scaled(9).map(|value| i128::from(value) * i128::from(unit)).map(|value| value as f64 / 1e9)
     } else {
         number.integer().and_then(|value| value.checked_mul(plain)).map(|value| value as f64)
     };
     let value = nanometres.unwrap_or(f64::INFINITY);
+    if value == 0.0 && address.zero_is_none {
+        return Ok(0.0);
+    }
     let in_units = value / unit as f64;
     if in_units < range[0] || in_units > range[1] {
         return Err((Condition::ValueOutOfRange, [in_units, range[0], range[1]]));

@@ -5,7 +5,7 @@
 
 use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
 use dialect::{Control, Meaning};
-use syntax::{Block, Cursor};
+use syntax::{Block, Cursor, Grouping};
 
 use crate::command::Command;
 use crate::jump::{Calls, Found};
@@ -202,6 +202,9 @@ impl Reading<'_> {
                 return Err(self.words.alarm_at(Condition::AddressUnavailable, word));
             }
         }
+        if self.words.has(b'O') {
+            self.refuse_stray_label()?;
+        }
         if !self.setting.control.last_word_wins {
             return self.refuse_repeated_words();
         }
@@ -220,15 +223,32 @@ impl Reading<'_> {
         calls && control.user_macro.argument(word.letter).is_some()
     }
 
+    /// Refuses a second word of an address. G and M have rules of their own, and the arguments I, J, K of a macro call
+    /// come in groups.
     fn refuse_repeated_words(&self) -> Result<(), Alarm> {
         let mut seen = 0u32;
         for word in self.words.block.words.iter().take(self.word_count) {
-            if !matches!(word.letter, b'G' | b'M') && seen & letter_bit(word.letter) != 0 {
-                return Err(self.words.alarm_at(Condition::WordRepeated, word));
+            let own_rules = matches!(word.letter, b'G' | b'M');
+            if !own_rules && seen & letter_bit(word.letter) != 0 {
+                let in_groups = matches!(word.letter, b'I' | b'J' | b'K') && self.is_argument(word);
+                if !in_groups {
+                    return Err(self.words.alarm_at(Condition::WordRepeated, word));
+                }
             }
             seen |= letter_bit(word.letter);
         }
         Ok(())
+    }
+
+    /// Refuses an O word behind other words where it is a mere label.
+    fn refuse_stray_label(&self) -> Result<(), Alarm> {
+        let is_label = self.control().grammar.grouping == Grouping::Files;
+        match self.words.word(b'O').filter(|_| is_label) {
+            Some(word) if word.extent.at > self.words.block.words.first().map_or(0, |first| first.extent.at) => {
+                Err(self.words.alarm_at(Condition::LabelPlace, word))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// F, H, D; of O and N only the range matters here.

@@ -55,7 +55,8 @@ impl Reading<'_> {
         let mut taken = 0;
         for word in self.words.block.words.iter().take(self.word_count).filter(|word| word.letter == b'M') {
             taken += 1;
-            if taken > 1 && !self.setting.fitting.options.several_m_codes {
+            let most = if self.setting.fitting.options.several_m_codes { control.most_m_codes } else { 1 };
+            if taken > most {
                 return Err(self.words.alarm_at(Condition::MSeveral, word).into());
             }
             let number = self.words.value(word)?;

@@ -1,7 +1,7 @@
 //! G04: a pause.
 
 use base::{Alarm, Condition, Decimal};
-use dialect::DwellVariable;
+use dialect::{DwellVariable, PointRule};
 
 use crate::block::Reading;
 use crate::command::Body;
@@ -49,10 +49,10 @@ impl Reading<'_> {
     pub fn dwell_number(&self, letter: u8) -> Result<Option<Decimal>, Alarm> {
         let number = self.words.number(letter)?;
         let value = self.word_values.get(self.words.index(letter)).filter(|value| !value.is_nan());
+        let in_seconds = self.setting.fitting.policies.dwell_variable == DwellVariable::Seconds
+            && self.control().address(letter).is_some_and(|address| address.point != PointRule::Whole);
         Ok(match value {
-            Some(&value) if self.setting.fitting.policies.dwell_variable == DwellVariable::Seconds => {
-                Some(with_point(value))
-            }
+            Some(&value) if in_seconds => Some(with_point(value)),
             _ => number,
         })
     }

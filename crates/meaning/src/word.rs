@@ -213,7 +213,11 @@ impl<'b> Words<'b> {
         let Some(address) = control.address(b'P') else {
             return Err(self.alarm(Condition::AddressUnavailable, letter));
         };
-        match control.dwell_seconds(address, number) {
+        let seconds = match letter {
+            b'X' => control.seconds(address, self.pointed(number)),
+            _ => control.dwell_seconds(address, number),
+        };
+        match seconds {
             Ok(seconds) => Ok(self.noted(letter, ReadAs::Seconds, seconds, 1.0)),
             Err((condition, values)) => Err(self.alarm(condition, letter).with(values)),
         }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
-use base::{Diagnostic, Label, Severity};
+use base::{Correction, Diagnostic, Label, Severity};
 use dialect::Control;
 
 use crate::excerpt::Excerpt;
@@ -129,11 +129,24 @@ fn text(diagnostic: &Diagnostic, excerpt: &Excerpt, labels: &[Excerpt], colour: 
     for (label, excerpt) in diagnostic.labels.iter().zip(labels) {
         group = group.element(snippet(excerpt, AnnotationKind::Context, &label.text));
     }
-    let group = group
+    let mut group = group
         .element(Level::NOTE.with_name("why").message(&diagnostic.why))
         .element(Level::HELP.message(&diagnostic.help));
+    if let Some(fix) = &diagnostic.fix {
+        group = group.element(Level::HELP.message(in_words(fix)));
+    }
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
     format!("{}\n", renderer.render(&[group]))
+}
+
+/// A correction for people.
+fn in_words(fix: &Correction) -> String {
+    let blocks = fix.text.replace('\n', ", then ");
+    match (fix.safe, blocks.is_empty()) {
+        (true, _) => format!("write {blocks}"),
+        (false, false) => format!("perhaps {blocks} is meant"),
+        (false, true) => "perhaps nothing is meant: delete the block".to_owned(),
+    }
 }
 
 /// A source line with what is meant in it.
@@ -173,6 +186,13 @@ fn json(diagnostic: &Diagnostic, excerpt: &Excerpt, labels: &[Excerpt]) -> Strin
         objects(line.field("labels"), diagnostic, labels, |object, label, excerpt| {
             object.text("file", &excerpt.file).integer("line", excerpt.line).integer("column", excerpt.column);
             object.text("text", &label.text);
+        });
+    }
+    if let Some(fix) = &diagnostic.fix {
+        line.object("fix", |object| {
+            object.text("applicability", if fix.safe { "safe" } else { "unsafe" });
+            object.integer("offset", fix.span.start).integer("length", u64::from(fix.span.len));
+            object.text("text", &fix.text);
         });
     }
     line.end();
@@ -220,8 +240,43 @@ fn sarif(diagnostic: &Diagnostic, excerpt: &Excerpt, labels: &[Excerpt]) -> Stri
             });
         });
     }
+    if let Some(fix) = &diagnostic.fix {
+        let fixes = line.field("fixes");
+        fixes.push(b'[');
+        sarif_fix(fixes, fix, diagnostic, excerpt);
+        fixes.push(b']');
+    }
     line.end();
     String::from_utf8_lossy(&out).into_owned()
+}
+
+fn sarif_fix(out: &mut Vec<u8>, fix: &Correction, diagnostic: &Diagnostic, excerpt: &Excerpt) {
+    let mut object = JsonLine::begin(out);
+    object.object("description", |message| {
+        message.text("text", &sentence(&in_words(fix)));
+    });
+    let changes = object.field("artifactChanges");
+    changes.push(b'[');
+    let mut change = JsonLine::begin(changes);
+    change.object("artifactLocation", |artifact| {
+        artifact.text("uri", &excerpt.file);
+    });
+    let replacements = change.field("replacements");
+    replacements.push(b'[');
+    let mut replacement = JsonLine::begin(replacements);
+    let column = diagnostic.place.column(fix.span);
+    replacement.object("deletedRegion", |region| {
+        region.integer("startLine", excerpt.line).integer("startColumn", column);
+        region.integer("endColumn", column + u64::from(fix.span.len));
+    });
+    replacement.object("insertedContent", |content| {
+        content.text("text", &fix.text);
+    });
+    replacement.end();
+    replacements.push(b']');
+    change.end();
+    changes.push(b']');
+    object.end();
 }
 
 fn physical_location(object: &mut JsonLine, excerpt: &Excerpt, width: u32) {

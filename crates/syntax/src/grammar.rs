@@ -40,6 +40,26 @@ pub enum Grouping {
     Files,
 }
 
+/// What `%` is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Percent {
+    /// A block of its own, the start or end of a tape.
+    #[default]
+    EndOfTape,
+    /// Alone on a line it says nothing; elsewhere it is not a character of the control.
+    Ignore,
+}
+
+/// Where a block-delete sign may stand.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum BlockDelete {
+    /// Anywhere, with the number of a switch behind it: the rest of the block is skipped.
+    #[default]
+    Anywhere,
+    /// At the block's head or behind its number, for one switch and the whole block.
+    Head,
+}
+
 /// How a control's program text is read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Grammar {
@@ -51,6 +71,10 @@ pub struct Grammar {
     pub colon: Colon,
     /// How a text divides into programs.
     pub grouping: Grouping,
+    /// What `%` is.
+    pub percent: Percent,
+    /// Where a block-delete sign may stand.
+    pub block_delete: BlockDelete,
     /// Most characters of a block, its end included.
     pub block_length: u32,
 }
@@ -62,6 +86,8 @@ impl Default for Grammar {
             lower_case: LowerCase::default(),
             colon: Colon::default(),
             grouping: Grouping::default(),
+            percent: Percent::default(),
+            block_delete: BlockDelete::default(),
             block_length: u32::MAX,
         }
     }

@@ -3,7 +3,7 @@
 use base::Condition;
 
 use crate::block::{Block, Cursor, Extent, Fault, Skip, Statement, Value, Word};
-use crate::grammar::{Colon, Grammar, LowerCase, Semicolon};
+use crate::grammar::{BlockDelete, Colon, Grammar, LowerCase, Percent, Semicolon};
 use crate::number::{is_blank, scan_number};
 use crate::statement::{expression_len, statement_at};
 
@@ -135,6 +135,11 @@ impl Lexer<'_> {
                             self.at = self.text.len();
                             return End::Window;
                         }
+                    }
+                }
+                b'%' if self.grammar.percent == Percent::Ignore => {
+                    if !self.lone_percent() {
+                        return End::Window;
                     }
                 }
                 b'%' => {
@@ -292,8 +297,28 @@ impl Lexer<'_> {
         self.at += len;
     }
 
+    /// `%` that says nothing, if it stands alone on its line. False if the window ends first.
+    fn lone_percent(&mut self) -> bool {
+        let behind = self.text.get(self.at + 1..).unwrap_or_default().iter().find(|&&byte| !is_blank(byte));
+        if behind.is_none() && !self.last {
+            self.at = self.text.len();
+            return false;
+        }
+        if self.at == self.start && matches!(behind, None | Some(b'\n')) {
+            let extent = self.extent(self.at, 1);
+            self.block.comments.push(extent);
+        } else {
+            self.fault(Condition::CharacterUnknown, self.at, 1);
+        }
+        self.at += 1;
+        true
+    }
+
     fn skip_sign(&mut self) {
         let from = self.at;
+        if self.grammar.block_delete == BlockDelete::Head {
+            return self.skip_sign_at_head();
+        }
         let mut next = from + 1;
         while self.text.get(next).is_some_and(|&b| is_blank(b)) {
             next += 1;
@@ -306,6 +331,18 @@ impl Lexer<'_> {
         let extent = self.extent(from, len);
         self.block.skips.push(Skip { switch, first_word, extent });
         self.at = from + len;
+    }
+
+    fn skip_sign_at_head(&mut self) {
+        let only_number = self.block.words.iter().all(|word| word.letter == b'N') && self.block.skips.is_empty();
+        if only_number && self.block.statement.is_none() {
+            let first_word = u16::try_from(self.block.words.len()).unwrap_or(u16::MAX);
+            let extent = self.extent(self.at, 1);
+            self.block.skips.push(Skip { switch: 1, first_word, extent });
+        } else {
+            self.fault(Condition::BlockDeletePlace, self.at, 1);
+        }
+        self.at += 1;
     }
 
     /// `%` is a block of its own: blanks and one end-of-block after it belong to it.

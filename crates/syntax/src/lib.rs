@@ -14,7 +14,7 @@ mod print;
 mod statement;
 
 pub use block::{Block, Cursor, Extent, Fault, Skip, Statement, StatementKind, Value, Word};
-pub use grammar::{Colon, Grammar, Grouping, LowerCase, Semicolon};
+pub use grammar::{BlockDelete, Colon, Grammar, Grouping, LowerCase, Percent, Semicolon};
 pub use layout::{Item, lay_out, take_apart};
 pub use lexer::{LONGEST, Outcome, read_block};
 pub use macro_text::goto_number;

@@ -70,6 +70,8 @@ pub struct Case {
     pub within_increment: bool,
     /// Files that the command writes, compared with those of the folder.
     pub writes: Vec<String>,
+    /// Files that the command writes over, compared with `NAME.after` of the folder.
+    pub rewrites: Vec<String>,
 }
 
 impl Case {
@@ -123,6 +125,7 @@ fn case(table: &mut Table) -> Case {
         same_motion: same.is_some(),
         within_increment: same.unwrap_or(false),
         writes: table.strings("writes").unwrap_or_default(),
+        rewrites: table.strings("rewrites").unwrap_or_default(),
     }
 }
 

@@ -59,9 +59,10 @@ fn judge_one(case: &Case, folder: &Path, mode: Mode, program: Program) -> Result
     } else if case.exit == 0 && !outcome.err.is_empty() {
         faults.push(format!("standard error is not empty:\n{}", outcome.err));
     }
-    for file in &case.writes {
+    let after = case.rewrites.iter().map(|file| (file, format!("{file}.after")));
+    for (file, name) in case.writes.iter().map(|file| (file, file.clone())).chain(after) {
         match fs::read_to_string(room.folder(folder).join(file)) {
-            Ok(text) => expected.compare(file, &text, true, &mut faults),
+            Ok(text) => expected.compare(&name, &text, true, &mut faults),
             Err(error) => faults.push(format!("{file} was not written: {error}")),
         }
     }
@@ -151,7 +152,7 @@ struct Room(Option<TempDir>);
 
 impl Room {
     fn new(case: &Case, folder: &Path) -> io::Result<Room> {
-        if case.writes.is_empty() {
+        if case.writes.is_empty() && case.rewrites.is_empty() {
             return Ok(Room(None));
         }
         let copy = TempDir::new()?;

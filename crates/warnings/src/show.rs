@@ -53,6 +53,7 @@ impl Finding {
             place: self.place,
             span,
             label,
+            fix: None,
             labels: labels.collect(),
         })
     }

@@ -11,6 +11,7 @@ use station::{AfterAlarm, Configuration, Session};
 use tempfile::NamedTempFile;
 use warnings::{Choice, Finding, Outcomes, Rule, Watch, look_at_text, power_on_trials, second_piece};
 
+use super::fix::{correction, fix_file};
 use super::{begin_session, run_through};
 use crate::arguments::{CheckArguments, FormatArgument, SettingArguments};
 use crate::failure::Failure;
@@ -40,6 +41,8 @@ struct Counts {
     alarms: u64,
     denied: u64,
     warnings: u64,
+    /// Refused blocks that can safely be written otherwise.
+    fixable: u64,
 }
 
 impl Counts {
@@ -61,7 +64,14 @@ impl Counts {
                 line += &format!(", {}", count(number, what));
             }
         }
-        line + "\n"
+        line += "\n";
+        if self.fixable > 0 {
+            line += &format!(
+                "{} can be written otherwise: check --fix does it where the run then proves right\n",
+                count(self.fixable, "block")
+            );
+        }
+        line
     }
 }
 
@@ -126,6 +136,12 @@ fn check_all(arguments: &CheckArguments, counts: &mut Counts) -> Result<bool, Fa
     };
     let choice = Choice::new(&arguments.deny, &arguments.allow).map_err(Failure::call)?;
     let files = named_programs(&arguments.files)?;
+    let mut rewritten = Vec::new();
+    if arguments.fix {
+        for file in &files {
+            rewritten.push(fix_file(file, &arguments.setting)?);
+        }
+    }
     let mut findings =
         Findings { choice: &choice, format, output: Output::new(), counts, rules: Rules::default(), held: Vec::new() };
     findings.output.buffer.extend_from_slice(begin(format).as_bytes());
@@ -137,6 +153,9 @@ fn check_all(arguments: &CheckArguments, counts: &mut Counts) -> Result<bool, Fa
     output.buffer.extend_from_slice(end(format, &findings.rules).as_bytes());
     if matches!(format, Format::Text { .. }) {
         output.buffer.extend_from_slice(findings.counts.line(files.len() as u64).as_bytes());
+        for (file, blocks) in files.iter().zip(rewritten).filter(|(_, blocks)| *blocks > 0) {
+            output.buffer.extend_from_slice(format!("{file}: {} rewritten\n", count(blocks, "block")).as_bytes());
+        }
     }
     output.flush()?;
     Ok(findings.counts.are_clean())
@@ -165,7 +184,9 @@ fn check_one(file: &str, arguments: &CheckArguments, findings: &mut Findings) ->
                     if said.len() < MOST_REMEMBERED {
                         said.insert(key);
                     }
-                    let (diagnostic, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
+                    let (mut diagnostic, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
+                    diagnostic.fix = correction(alarm, session);
+                    findings.counts.fixable += u64::from(diagnostic.fix.as_ref().is_some_and(|fix| fix.safe));
                     findings.rules.take_in(diagnostic.code, control);
                     findings.counts.alarms += 1;
                     let order = (piece, session.interpreter().done()[0].block);

@@ -1,9 +1,8 @@
 //! `fmt`: programs in house style, proved to run as before, then written over themselves at one stroke.
 
 use std::collections::BTreeSet;
-use std::fs::{self, File};
-use std::io::{Read, Write};
-use std::path::Path;
+use std::fs;
+use std::io::Read;
 
 use base::{Condition, SourceId};
 use machine::EventKind;
@@ -17,8 +16,9 @@ use crate::arguments::FmtArguments;
 use crate::failure::Failure;
 use crate::named_programs::named_programs;
 use crate::output::Output;
+use crate::replace::write_at_one_stroke;
 use crate::setting;
-use crate::texts::{Texts, folder_of, one_byte_a_character};
+use crate::texts::{Texts, one_byte_a_character};
 
 /// The text in question, in a session's texts.
 const OWN: SourceId = SourceId(0);
@@ -72,7 +72,8 @@ fn numbering(text: &str) -> Result<Numbering, Failure> {
     }
 }
 
-fn read(file: &str, configuration: &Configuration) -> Result<Vec<u8>, Failure> {
+/// A program as it stands in its file; the image of a tape and texts of two bytes a character are refused.
+pub fn read(file: &str, configuration: &Configuration) -> Result<Vec<u8>, Failure> {
     let cannot = |error: std::io::Error| Failure::call(format!("cannot read {file}: {error}"));
     let mut bytes = Vec::new();
     if file == "-" {
@@ -216,31 +217,6 @@ impl Run<'_> {
             "{}: in house style the program would not run as before{place}; nothing is written. Please report it with the program.",
             self.file
         ))
-    }
-}
-
-/// The new text in a file beside the old one, which then takes its place: there is never half a program.
-fn write_at_one_stroke(path: &str, text: &[u8]) -> Result<(), Failure> {
-    let cannot = |error: std::io::Error| Failure::call(format!("cannot write {path}: {error}"));
-    // A link stays a link, to the file that it names.
-    let goal = fs::canonicalize(path).unwrap_or_else(|_| Path::new(path).to_path_buf());
-    let folder = folder_of(&goal.to_string_lossy());
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(cannot)?;
-    file.write_all(text).map_err(cannot)?;
-    file.as_file().sync_all().map_err(cannot)?;
-    keep_permissions(&goal, file.as_file()).map_err(cannot)?;
-    file.persist(&goal).map_err(|error| cannot(error.error))?;
-    Ok(())
-}
-
-/// Whoever could read the old file can read the new one.
-fn keep_permissions(old: &Path, new: &File) -> std::io::Result<()> {
-    match fs::metadata(old) {
-        Ok(facts) => new.set_permissions(facts.permissions()),
-        #[cfg(unix)]
-        Err(_) => new.set_permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644)),
-        #[cfg(not(unix))]
-        Err(_) => Ok(()),
     }
 }
 

@@ -5,6 +5,7 @@ use data::Table;
 
 use super::origin;
 use crate::alarm::{AlarmRow, Sentences};
+use crate::fix::FIXES;
 
 pub(super) fn alarms(root: &mut Table) -> (Vec<AlarmRow>, Vec<usize>) {
     let mut of_condition = vec![None; Condition::ALL.len()];
@@ -45,6 +46,7 @@ pub(super) fn sentences(root: &mut Table) -> Vec<Sentences> {
             what: row.required_string("what"),
             why: row.required_string("why"),
             help: row.required_string("help"),
+            fix: row.choice("fix", FIXES),
         };
         match Condition::from_id(&id) {
             Some(condition) => all[condition as usize] = Some(sentences),

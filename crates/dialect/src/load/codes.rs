@@ -4,7 +4,7 @@ use data::Table;
 
 use super::origin;
 use crate::meaning::{MMeaning, Meaning};
-use crate::row::{Class, Division, GCode, MCode, OptionRow, Origin};
+use crate::row::{Class, Division, GCode, MCode, OptionRow, Origin, Takes};
 
 /// A group whose codes are still names.
 pub(super) struct GroupDraft {
@@ -98,6 +98,8 @@ const CLASSES: &[(&str, Class)] = &[
     ("one-shot", Class::OneShot),
 ];
 
+const TAKES: &[(&str, Takes)] = &[("axis-words", Takes::AxisWords), ("all-words", Takes::AllWords)];
+
 fn g_code(row: &mut Table, groups: &[u8], options: &[OptionRow], seen: &mut Vec<u16>) -> GCode {
     let code = code_number(row, "g", seen);
     let group_place = row.place_of("group");
@@ -143,6 +145,7 @@ fn g_code(row: &mut Table, groups: &[u8], options: &[OptionRow], seen: &mut Vec<
         group,
         division,
         class: row.choice("class", CLASSES).unwrap_or_default(),
+        takes: row.choice("takes", TAKES).unwrap_or_default(),
         meaning: row.choice("meaning", Meaning::TABLE).unwrap_or(Meaning::Dwell),
         number: row.integer("number").and_then(|n| u8::try_from(n).ok()).unwrap_or(0),
         text: row.required_string("text"),
@@ -150,7 +153,9 @@ fn g_code(row: &mut Table, groups: &[u8], options: &[OptionRow], seen: &mut Vec<
     }
 }
 
-pub(super) fn m_codes(root: &mut Table) -> ([[u32; 2]; 3], Vec<MCode>) {
+/// The ranges of M codes, how many a block may have, and the codes that the control knows.
+pub(super) fn m_codes(root: &mut Table) -> ([[u32; 2]; 3], usize, Vec<MCode>) {
+    let most = root.integer("most_in_block").and_then(|most| usize::try_from(most).ok()).unwrap_or(usize::MAX);
     root.require("range");
     let ranges = root.table("range", |t| {
         ["machine", "control", "extended"].map(|key| {
@@ -171,5 +176,5 @@ pub(super) fn m_codes(root: &mut Table) -> ([[u32; 2]; 3], Vec<MCode>) {
         text: row.required_string("text"),
         origin: origin(row),
     });
-    (ranges.unwrap_or([[1, 0]; 3]), rows)
+    (ranges.unwrap_or([[1, 0]; 3]), most, rows)
 }

@@ -113,6 +113,9 @@ pub(super) fn addresses(root: &mut Table) -> [Option<Address>; 26] {
     all
 }
 
+const POINT_RULES: &[(&str, PointRule)] =
+    &[("yes", PointRule::Yes), ("no", PointRule::No), ("dwell", PointRule::Dwell), ("whole", PointRule::Whole)];
+
 fn address(row: &mut Table) -> Address {
     let letter = row.required_string("letter");
     row.require("kind");
@@ -138,11 +141,10 @@ fn address(row: &mut Table) -> Address {
         rotary: of("rotary"),
         feed: [of("metric_per_minute"), of("inch_per_minute"), of("metric_per_revolution"), of("inch_per_revolution")],
         seconds: of("seconds"),
+        zero_is_none: row.boolean("zero_is_none").unwrap_or(false),
         digits: row.integer("digits").and_then(|n| u8::try_from(n).ok()).unwrap_or(u8::MAX),
         range: whole.map(|value| value as i64),
-        point: row
-            .choice("point", &[("yes", PointRule::Yes), ("no", PointRule::No), ("dwell", PointRule::Dwell)])
-            .unwrap_or(PointRule::No),
+        point: row.choice("point", POINT_RULES).unwrap_or(PointRule::No),
         alarm: row.required_string("alarm"),
         absent: row.string("absent"),
         text: row.required_string("text"),

@@ -47,7 +47,7 @@ impl Reader {
     fn number_for(&self, letter: u8, value: f64) -> Decimal {
         match self.setting.control.address(letter).map(|address| address.point) {
             // Where P is a dwell, what reads it goes back to the value.
-            Some(PointRule::No | PointRule::Dwell) => whole(value),
+            Some(PointRule::No | PointRule::Dwell | PointRule::Whole) => whole(value),
             _ => with_point(value),
         }
     }

@@ -1,0 +1,1 @@
+(HEAD) G00 (IN ;BETWEEN) X10. (END)
