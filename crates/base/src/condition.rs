@@ -249,6 +249,8 @@ conditions! {
     ScalingFactorMissing = "scaling-factor-missing",
     /// G50 or G51 beside another G code, or G50 beside a way to go.
     ScalingNotAlone = "scaling-not-alone",
+    /// G50 or G51 while tool radius compensation is on.
+    ScalingInCompensation = "scaling-in-compensation",
 
     // The operator's buttons.
     /// The emergency stop button is pressed.

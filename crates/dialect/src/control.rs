@@ -11,6 +11,7 @@ use crate::member::AxisLetter;
 use crate::policy::ASKED;
 use crate::row::{Division, GCode, MCode, OptionRow, Origin, ParameterRow, PolicyRow};
 use crate::station::StationTable;
+use crate::transform::{RotationRule, ScalingRule};
 use crate::user_macro::UserMacro;
 use crate::warning::{OwnWarning, WarningRow};
 
@@ -172,6 +173,10 @@ pub struct Control {
     pub stroke_outside: Option<(usize, u8)>,
     /// Index of the parameter whose bits 0 to 3 choose the axes of the mirror image: X, Y, Z, the fourth.
     pub mirror_setting: Option<usize>,
+    /// How the words of scaling are read, on a control that has it.
+    pub scaling: Option<ScalingRule>,
+    /// How the words of rotation are read, on a control that has it.
+    pub rotation: Option<RotationRule>,
     /// How punched tape is read; `None` on a control without tapes.
     pub tape: Option<TapeRules>,
     /// Row of the base work system, if the control has one.

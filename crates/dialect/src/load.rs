@@ -7,6 +7,7 @@ mod codes;
 mod members;
 mod settings;
 mod station;
+mod transforms;
 mod user_macro;
 mod warnings;
 
@@ -107,6 +108,8 @@ struct Head {
     universal_preset: Option<(String, u8)>,
     stroke_outside: Option<(String, u8)>,
     mirror_setting: Option<String>,
+    scaling: Option<transforms::ScalingDraft>,
+    rotation: Option<transforms::RotationDraft>,
     tape: Option<settings::TapeDraft>,
     groups: Vec<codes::GroupDraft>,
     options: Vec<crate::row::OptionRow>,
@@ -215,6 +218,8 @@ fn head(root: &mut Table, member: &str) -> Head {
         universal_preset: universal_preset.flatten(),
         stroke_outside: stroke_outside.flatten(),
         mirror_setting: mirror_setting.flatten(),
+        scaling: root.table("scaling", transforms::scaling),
+        rotation: root.table("rotation", transforms::rotation),
         tape: root.table("tape", settings::tape),
         groups: root.tables("group", codes::group),
         options: root.tables("option", |row| settings::option(row, member)).into_iter().flatten().collect(),
@@ -282,6 +287,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         Some(name) => Some(parameter_index(files, &parameters, name)?),
         None => None,
     };
+    let (scaling, rotation) = transforms::resolve(files, (head.scaling, head.rotation), &roles, &parameters)?;
     let tape = match &head.tape {
         Some(draft) => Some(resolve_tape(files, draft, &parameters)?),
         None => None,
@@ -331,6 +337,8 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         universal_preset,
         stroke_outside,
         mirror_setting,
+        scaling,
+        rotation,
         tape,
         base_system,
         m_ranges,

@@ -153,6 +153,27 @@ policies! {
         /// As those of every other cycle.
         Scaled = "scaled",
     }
+    /// What a negative ratio of one axis says of its size.
+    scaling_negative_ratio: ScalingNegativeRatio = "scaling-negative-ratio" {
+        /// Its own amount is the ratio.
+        Amount = "amount",
+        /// The ratio is that of the parameter for ratios left out.
+        Parameter = "parameter",
+    }
+    /// From where distances count, and a turned axis without a word, when scale or rotation has just changed.
+    programmed_position: ProgrammedPosition = "programmed-position" {
+        /// From the program's name, under the new transform, of the place where the axes stand.
+        FromMachine = "from-machine",
+        /// From the coordinates programmed last.
+        Kept = "kept",
+    }
+    /// Whether scale, mirror and rotation change the intermediate point of a return to a reference point.
+    reference_via: ReferenceVia = "reference-via" {
+        /// As every point.
+        Transformed = "transformed",
+        /// No.
+        AsWritten = "as-written",
+    }
     /// When a move out of the travel is found.
     stroke_check: StrokeCheck = "stroke-check" {
         /// Before the move begins.

@@ -276,23 +276,17 @@ impl Reading<'_> {
 
     /// The one-shot code, the cycle or the movement.
     fn act(&mut self) -> Result<(), Alarm> {
-        self.refuse_unbuilt_modes()?;
-        if let Some(code) = self.scaling_code()
-            && self.scaling(code)?
-        {
-            self.words_taken = true;
-            return Ok(());
-        }
-        if self.stroke_box()? {
-            self.words_taken = true;
-            return Ok(());
-        }
+        let roles = self.control().roles;
+        self.words_taken = self.groups_written & self.setting.transform_groups != 0 && self.take_transforms()?;
+        self.words_taken |= self.stroke_box()?;
         self.exchange_side();
         self.length_change = self.change_length_offset()?;
         let control = self.control();
-        let roles = control.roles;
         let motion = control.in_force(&self.next.groups, roles.motion).unwrap_or(Meaning::Rapid);
         self.enter_cycle()?;
+        if self.words_taken {
+            return Ok(());
+        }
         let cycle = control.in_force(&self.next.groups, roles.cycle).filter(|code| code.is_cycle());
         let Some((code, _)) = self.one_shot else {
             return self.move_or_cycle(cycle, motion);

@@ -93,7 +93,7 @@ impl Reading<'_> {
             center: self.next.machine,
             axes: [x as u8, y as u8],
             plane: Plane::Xy,
-            reach: [if transform.mirrored.has(x) { -reach } else { reach }, 0.0],
+            reach: transform.vector([x, y], [1.0, 0.0]).map(|arm| arm / transform.size([x, y], 1.0) * reach),
             clockwise: (code == Meaning::CircleCutClockwise) != transform.turns_over([x, y]),
             feed,
         });

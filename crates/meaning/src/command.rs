@@ -46,6 +46,8 @@ pub(crate) enum Body {
         plane: Plane,
         clockwise: bool,
         full_circle: bool,
+        /// Where the arc ends in its plane if a straight piece leads on to the end.
+        foot: Option<[f64; 2]>,
         feed: Feed,
     },
     /// A line until the skip signal; what is raised if it does not come.

@@ -156,7 +156,8 @@ impl Expansion {
         match (&command.body, phase) {
             (Body::Rapid { to, kind }, 0) => Some(Act::Rapid { to: mm(to), kind: *kind }),
             (Body::Line { to, feed }, 0) => Some(Act::Line { to: mm(to), feed: *feed }),
-            (Body::Arc { to, center, axes, plane, clockwise, full_circle, feed }, 0) => Some(Act::Arc {
+            (Body::Arc { foot: Some(_), .. }, _) => return closed_arc(&command.body, phase, around),
+            (Body::Arc { to, center, axes, plane, clockwise, full_circle, feed, .. }, 0) => Some(Act::Arc {
                 arc: ArcMove {
                     to: mm(to),
                     plane: *plane,
@@ -320,6 +321,32 @@ impl Expansion {
             Step::ByHand => holes.by_hand.then_some(Act::Await(Some(StopKind::Cycle))),
             Step::Done => None,
         }
+    }
+}
+
+/// An arc and the straight piece from its end to where the block ends.
+#[cold]
+#[inline(never)]
+fn closed_arc(body: &Body, phase: u8, around: &Surroundings) -> Option<Act> {
+    let Body::Arc { to, center, axes, plane, clockwise, foot: Some(foot), feed, .. } = body else { return None };
+    match phase {
+        0 => {
+            let mut end = *to;
+            for (axis, at) in axes.iter().zip(foot) {
+                end[usize::from(*axis)] = *at;
+            }
+            let arc = ArcMove {
+                to: to_mm(&end, around.axes),
+                plane: *plane,
+                axes: *axes,
+                center: center.map(|counts| counts / 1e6),
+                clockwise: *clockwise,
+                full_circle: false,
+            };
+            Some(Act::Arc { arc, feed: Feed { exact_stop: false, ..*feed } })
+        }
+        1 => Some(Act::Line { to: to_mm(to, around.axes), feed: *feed }),
+        _ => None,
     }
 }
 

@@ -79,20 +79,6 @@ impl Reading<'_> {
         Ok(row)
     }
 
-    /// Modal codes whose meaning is not built yet are refused where they are written.
-    pub fn refuse_unbuilt_modes(&self) -> Result<(), Alarm> {
-        let control = self.setting.control.as_ref();
-        for (index, _) in control.groups.iter().enumerate() {
-            let unbuilt = control.in_force(&self.next.groups, index) == Some(Meaning::RotationOn);
-            if unbuilt && self.groups_written & (1 << index) != 0 {
-                let row = self.next.groups.0[index];
-                let code = control.g_codes.get(usize::from(row)).map_or(0, |code| code.code);
-                return Err(self.g_alarm(Condition::NotYetBuilt, i64::from(code)));
-            }
-        }
-        Ok(())
-    }
-
     /// An alarm at the word of a G code.
     fn g_alarm(&self, condition: Condition, code: i64) -> Alarm {
         let is_it = |word: &&syntax::Word| {

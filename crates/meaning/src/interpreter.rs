@@ -68,6 +68,7 @@ impl Interpreter {
         let code_letters = b"STM".iter().fold(0, |set, &letter| set | letter_bit(letter))
             | if facts.axis(b'B').is_none() { letter_bit(b'B') } else { 0 };
         let length_axis = facts.axis(crate::coordinate::LENGTH_AXIS);
+        let transform_groups = crate::setting::transform_groups(&control);
         let setting = Setting {
             control,
             fitting,
@@ -77,6 +78,7 @@ impl Interpreter {
             length_axis,
             axis_letters,
             code_letters,
+            transform_groups,
             record: None,
         };
         Interpreter {

@@ -4,6 +4,7 @@
 use base::AxisSet;
 
 use crate::block::Reading;
+use crate::transform::TRANSFORMED;
 
 impl Reading<'_> {
     /// M95: the image begins where the axes stand. While it is on, M95 changes nothing.
@@ -14,7 +15,7 @@ impl Reading<'_> {
         self.next.transform.mirror = true;
         let Some(parameter) = self.control().mirror_setting else { return };
         let bits = self.setting.fitting.parameter(parameter) as u8;
-        for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(base::AXES) {
+        for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(TRANSFORMED) {
             let bit = match facts.letter {
                 b'X' => 0,
                 b'Y' => 1,
@@ -42,6 +43,9 @@ impl Reading<'_> {
 
     /// An axis is mirrored about the point where it stands.
     pub fn mirror_here(&mut self, axis: usize) {
-        self.next.transform.line[axis] = self.here(axis) - self.setting.length_on(self.next, axis);
+        let line = self.here(axis) - self.setting.length_on(self.next, axis);
+        if let Some(place) = self.next.transform.line.get_mut(axis) {
+            *place = line;
+        }
     }
 }

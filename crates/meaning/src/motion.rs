@@ -1,7 +1,7 @@
 //! Positioning, lines and arcs: from the words of a block to one move in machine coordinates.
 
 use base::{AXES, Alarm, AxisSet, Condition, Point};
-use dialect::{ArcWithoutCentre, Meaning, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter};
+use dialect::{ArcWithoutCentre, Meaning, PositionOffsetArcRadius, PositionOffsetLetter};
 
 use crate::arc::{ArcWords, solve};
 use crate::block::Reading;
@@ -11,60 +11,6 @@ use crate::operation::{Plane, RapidKind, Side};
 use crate::position_offset::PositionOffset;
 
 impl Reading<'_> {
-    /// Where an axis' word leads, machine coordinates.
-    pub fn target(&mut self, axis: usize) -> Result<f64, Alarm> {
-        self.length_axis_placed(axis);
-        let (value, minus) = self.axis_word(axis)?;
-        let now = self.next.machine[axis];
-        let mut target = if self.absolute {
-            let kept = match self.setting.fitting.policies.position_offset_absolute {
-                PositionOffsetAbsolute::Dropped => 0.0,
-                PositionOffsetAbsolute::Kept => self.next.displacement[axis],
-            };
-            self.placed(axis, value) + kept
-        } else {
-            now + self.next.transform.distance(axis, value) + self.length_change_on(axis)
-        };
-        if let Some(offset) = self.position_offset {
-            let minus = minus != self.next.transform.mirrored.has(axis);
-            let change = offset.change(target - now, minus && value == 0.0);
-            self.next.displacement[axis] += change;
-            target += change;
-        } else if self.absolute
-            && self.setting.fitting.policies.position_offset_absolute == PositionOffsetAbsolute::Dropped
-        {
-            self.next.displacement[axis] = 0.0;
-        }
-        Ok(target)
-    }
-
-    /// What an incremental word of the length axis has to make up for.
-    fn length_change_on(&self, axis: usize) -> f64 {
-        if Some(axis) == self.setting.length_axis { self.length_change } else { 0.0 }
-    }
-
-    /// Every named axis at its target, and the length axis moved by a changed offset if it has no word of its own.
-    pub fn targets(&mut self) -> Result<(Point, AxisSet), Alarm> {
-        let mut to = self.next.machine;
-        let mut moved = AxisSet::NONE;
-        let named = self.axes_named()?;
-        for axis in named.iter() {
-            to[axis] = self.target(axis)?;
-            moved.add(axis);
-        }
-        let changes = self.words.has(b'H') || self.groups_written & (1 << self.control().roles.length) != 0;
-        if self.length_change != 0.0
-            && (changes || !named.is_empty())
-            && let Some(axis) = self.setting.length_axis
-            && !named.has(axis)
-        {
-            to[axis] += self.length_change;
-            moved.add(axis);
-            self.next.length_due = 0.0;
-        }
-        Ok((to, moved))
-    }
-
     /// The block's movement under the motion code in force.
     pub fn motion(&mut self, motion: Meaning) -> Result<(), Alarm> {
         match motion {
@@ -112,6 +58,7 @@ impl Reading<'_> {
             to[axis] = self.axis_word(axis)?.0;
             self.length_axis_placed(axis);
             self.next.displacement[axis] = 0.0;
+            self.next.transform.close_gap(axis);
         }
         let roles = self.setting.control.roles;
         self.command.body = match self.setting.control.in_force(&self.next.groups, roles.motion) {
@@ -170,6 +117,10 @@ impl Reading<'_> {
         }
         let axes = plane.letters().map(|letter| self.arc_axis(letter));
         let [Some(u), Some(v)] = axes else { return Err(self.motion_alarm(Condition::AddressUnavailable)) };
+        let (from_program, stretched) = match self.next.transform.stretches([u, v]) {
+            true => (self.last_programmed(), has_center && !has_radius),
+            false => (self.next.machine, false),
+        };
         let (to, moved) = self.targets()?;
         let units = self.units;
         let control = self.control();
@@ -195,16 +146,14 @@ impl Reading<'_> {
         let words = ArcWords {
             start: [from[u], from[v]],
             end: [to[u], to[v]],
-            center: if has_center {
-                Some([self.centre_word(letters[0], u)?, self.centre_word(letters[1], v)?])
-            } else {
-                None
-            },
+            center: if has_center { Some(self.centre_words(letters, [u, v])?) } else { None },
             radius,
             clockwise,
             radius_tolerance: self.setting.fitting.parameter(tolerances.arc_radius) * 1e6,
             end_limit: self.setting.fitting.parameter(tolerances.arc_end) * 1e6,
         };
+        // Of unequal factors the programmed arc must be one; the one that is cut is closed by a straight piece.
+        let words = if stretched { self.check_unscaled(words, plane, [u, v], &from_program, &to)? } else { words };
         let solved = solve(words)
             .map_err(|(condition, values)| self.arc_alarm(condition, plane, [u, v], has_radius).with(values));
         let Some(solved) = solved? else { return Ok(()) };
@@ -216,6 +165,7 @@ impl Reading<'_> {
             plane,
             clockwise,
             full_circle: solved.full_circle,
+            foot: if stretched { foot(&words, solved.center) } else { None },
             feed,
         };
         self.now_known = self.now_known.or(moved);
@@ -259,13 +209,42 @@ impl Reading<'_> {
         }
     }
 
-    /// A centre word along an axis in counts, lengthened by G45 to G48 as the axis of its name would be.
-    fn centre_word(&self, letter: u8, axis: usize) -> Result<f64, Alarm> {
-        let Some(value) = self.words.length(self.control(), letter, self.units)? else { return Ok(0.0) };
-        let value = self.next.transform.distance(axis, value);
-        let minus = self.words.number(letter)?.is_some_and(|number| number.negative);
-        let minus = minus != self.next.transform.mirrored.has(axis);
-        Ok(value + self.position_offset.map_or(0.0, |offset| offset.change(value, minus)))
+    /// The centre words in counts, each lengthened by G45 to G48 as the axis of its name would be.
+    fn centre_words(&self, letters: [u8; 2], axes: [usize; 2]) -> Result<[f64; 2], Alarm> {
+        let transform = self.next.transform;
+        let mut center = transform.vector(axes, self.centre_written(letters)?);
+        let Some(offset) = self.position_offset else { return Ok(center) };
+        for (place, letter) in letters.into_iter().enumerate() {
+            if let Some(number) = self.words.number(letter)? {
+                center[place] += offset.change(center[place], number.negative != transform.negates(axes[place]));
+            }
+        }
+        Ok(center)
+    }
+
+    /// The centre words as written, counts; a missing one is zero.
+    fn centre_written(&self, letters: [u8; 2]) -> Result<[f64; 2], Alarm> {
+        let word = |letter| Ok(self.words.length(self.control(), letter, self.units)?.unwrap_or(0.0));
+        Ok([word(letters[0])?, word(letters[1])?])
+    }
+
+    /// Holds the arc as it is written against the limit for its end; as it is scaled, its end may lie where it likes.
+    #[cold]
+    fn check_unscaled(
+        &self,
+        words: ArcWords,
+        plane: Plane,
+        axes: [usize; 2],
+        from: &Point,
+        to: &Point,
+    ) -> Result<ArcWords, Alarm> {
+        let to = self.setting.programmed(self.next, to);
+        let [start, end] = [from, &to].map(|point| axes.map(|axis| point[axis]));
+        let center = Some(self.centre_written(plane.centre_letters())?);
+        match solve(ArcWords { start, end, center, ..words }) {
+            Ok(_) => Ok(ArcWords { end_limit: 0.0, ..words }),
+            Err((condition, values)) => Err(self.arc_alarm(condition, plane, axes, false).with(values)),
+        }
     }
 
     /// The distances of positioning from one side, where the motion code in force asks for them; none along the axis of
@@ -282,4 +261,13 @@ impl Reading<'_> {
         }
         approach
     }
+}
+
+/// Where an arc ends whose end lies off its circle, on the way from there to its centre; `None` if it does not.
+fn foot(words: &ArcWords, center: [f64; 2]) -> Option<[f64; 2]> {
+    let way = |to: [f64; 2]| [to[0] - center[0], to[1] - center[1]];
+    let (start, end) = (way(words.start), way(words.end));
+    let (radius, reach) = (libm::hypot(start[0], start[1]), libm::hypot(end[0], end[1]));
+    let off = (radius - reach).abs() >= 1.0 && reach > 0.0;
+    off.then(|| [center[0] + end[0] * radius / reach, center[1] + end[1] * radius / reach])
 }

@@ -26,7 +26,7 @@ pub(crate) fn state_after(setting: &Setting, occasion: Occasion, before: &State,
         // Nothing moves: what was applied is forgotten, and the next absolute word goes to its place without it.
         (state.length, state.length_due) = (0.0, 0.0);
     }
-    setting.end_scaling(&mut state);
+    setting.end_transforms(&mut state);
     state
 }
 

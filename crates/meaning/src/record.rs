@@ -25,6 +25,8 @@ pub enum ReadAs {
     Length,
     /// An angle; the value is in degrees.
     Angle,
+    /// A ratio of scaling.
+    Ratio,
     /// A time; the value is in seconds.
     Seconds,
     /// Turns of the spindle.

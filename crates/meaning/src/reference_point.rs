@@ -54,10 +54,10 @@ impl Reading<'_> {
 
     fn return_to(&mut self, which: usize) -> Result<AxisSet, Alarm> {
         let axes = self.axes_named()?;
-        let mut via = self.next.machine;
         let mut to = self.next.machine;
+        let via = self.via_targets(axes)?;
         for axis in axes.iter() {
-            via[axis] = self.target(axis)?;
+            self.next.transform.close_gap(axis);
             to[axis] = self.setting.reference_point(axis, which);
             self.next.displacement[axis] = 0.0;
             self.next.reference.via[axis] = via[axis];
@@ -78,13 +78,11 @@ impl Reading<'_> {
                 return Err(self.axis_alarm(Condition::IntermediatePointMissing, axis));
             }
             self.next.machine[axis] = self.next.reference.via[axis];
+            self.next.transform.close_gap(axis);
         }
         let via = self.next.machine;
-        let mut to = via;
-        for axis in axes.iter() {
-            to[axis] = self.target(axis)?;
-        }
-        self.now_known = self.now_known.or(axes);
+        let (to, moved) = self.targets_of(axes)?;
+        self.now_known = self.now_known.or(moved);
         self.next.machine = to;
         self.command.body = Body::Via { via, to, stops: true };
         Ok(())

@@ -22,8 +22,17 @@ pub(crate) struct Setting {
     pub axis_letters: u32,
     /// The letters of codes that go out.
     pub code_letters: u32,
+    /// The groups whose codes change how words become places, one bit each; the plane among them where it matters to one.
+    pub transform_groups: u32,
     /// How the words of the block at hand are read, where that is recorded.
     pub record: Option<RefCell<WordsRead>>,
+}
+
+/// The groups of scale, rotation and polar coordinates, and of the plane where the latter two are.
+pub(crate) fn transform_groups(control: &Control) -> u32 {
+    let roles = &control.roles;
+    let plane = (roles.rotation.is_some() || roles.polar.is_some()).then_some(roles.plane);
+    [roles.scaling, roles.rotation, roles.polar, plane].iter().flatten().fold(0, |set, &group| set | 1 << group)
 }
 
 impl Setting {

@@ -51,10 +51,11 @@ pub(crate) fn measured(
     match &command.body {
         Body::Skip { .. } => {
             command.after.machine = there;
-            for axis in 0..setting.facts.axes.len().min(AXES) {
-                let place = there[axis] - command.after.displacement[axis];
-                command.after.skip[axis] = setting.programmed(&command.after, axis, place);
+            let mut place = there;
+            for axis in 0..AXES {
+                place[axis] -= command.after.displacement[axis];
             }
+            command.after.skip = setting.programmed(&command.after, &place);
         }
         Body::Centring(centring) => {
             command.after.machine = there;

@@ -7,6 +7,7 @@ use dialect::GroupCodes;
 
 use crate::cycle::{CycleData, Spindle};
 use crate::interrupt::Interrupt;
+use crate::polar::Polar;
 use crate::reference_point::ReferenceData;
 use crate::stroke::StrokeBox;
 use crate::transform::Transform;
@@ -89,8 +90,10 @@ pub struct State {
     pub corner: Corner,
     /// The box of the second stored stroke area.
     pub stroke: StrokeBox,
-    /// Scale and mirror.
+    /// Scale, mirror and rotation.
     pub transform: Transform,
+    /// Polar coordinates.
+    pub polar: Polar,
     /// Which way the spindle was last told to turn, by the program or by a cycle; a stop does not change it.
     pub spindle_direction: Option<Spindle>,
     /// Changes with every value that the program writes into memory, and comes back when the value does.
@@ -129,6 +132,7 @@ impl State {
             corner: Corner::NotProgrammed,
             stroke: StrokeBox::NONE,
             transform: Transform::default(),
+            polar: Polar::default(),
             spindle_direction: None,
             memory_mark: 0,
             unknown: Unknown::default(),

@@ -7,8 +7,16 @@ use base::{AXES, Point};
 pub(crate) enum Places {
     /// `count` places, each `step` further than the one before.
     Row { first: Point, step: Point, count: u32 },
-    /// `count` places on a circle in X and Y; the other axes stand at `level`.
-    Circle { level: Point, axes: [u8; 2], center: [f64; 2], radius: f64, first_deg: f64, step_deg: f64, count: u32 },
+    /// `count` places on a circle; the other axes stand at `level`. The arms lead from the centre to 0 and 90 degrees.
+    Circle {
+        level: Point,
+        axes: [u8; 2],
+        center: [f64; 2],
+        arms: [[f64; 2]; 2],
+        first_deg: f64,
+        step_deg: f64,
+        count: u32,
+    },
 }
 
 impl Places {
@@ -29,11 +37,11 @@ impl Places {
                 }
                 place
             }
-            Places::Circle { level, axes, center, radius, first_deg, step_deg, .. } => {
+            Places::Circle { level, axes, center, arms: [first, second], first_deg, step_deg, .. } => {
                 let (sin, cos) = sin_cos_deg(first_deg + step_deg * f64::from(index));
                 let mut place = level;
-                place[usize::from(axes[0])] = center[0] + radius * cos;
-                place[usize::from(axes[1])] = center[1] + radius * sin;
+                place[usize::from(axes[0])] = center[0] + (first[0] * cos + second[0] * sin);
+                place[usize::from(axes[1])] = center[1] + (first[1] * cos + second[1] * sin);
                 place
             }
         }
@@ -62,7 +70,7 @@ mod tests {
             level: [0.0; AXES],
             axes: [0, 1],
             center: [0.0, 0.0],
-            radius: 40e6,
+            arms: [[40e6, 0.0], [0.0, 40e6]],
             first_deg: 30.0,
             step_deg: 60.0,
             count: 6,

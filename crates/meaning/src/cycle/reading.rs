@@ -63,16 +63,8 @@ impl Reading<'_> {
         if count == 0 && self.setting.fitting.policies.cycle_l0_moves == CycleL0Moves::No {
             return Ok(());
         }
-        let mut first = self.next.machine;
-        let mut step = [0.0; AXES];
-        for axis in self.axes_named()?.iter().filter(|&axis| axis != drilling) {
-            first[axis] = self.target(axis)?;
-            if !absolute {
-                step[axis] = first[axis] - self.next.machine[axis];
-            }
-            self.now_known.add(axis);
-        }
-        let places = Places::Row { first, step, count: count.max(1) };
+        let named = self.axes_named()?.without(base::AxisSet::only(drilling));
+        let places = self.row_of_holes(named, count.max(1))?;
         let approach = self.cycle_approach();
         self.holes((count > 0).then_some(cycle), places, approach)
     }
@@ -103,14 +95,12 @@ impl Reading<'_> {
         let count = self.words.integer(control, b'L')?.unwrap_or(0);
         let size = self.words.length(control, b'I', self.units)?.unwrap_or(0.0);
         let angle = self.words.angle(control, b'J')?.unwrap_or(0.0) / 1e6;
-        let (mut level, mut named) = (self.next.machine, self.axes_named()?);
+        let mut named = self.axes_named()?;
         if let (Some(drilling), true) = (self.setting.length_axis, cycle.is_some()) {
             named = named.without(base::AxisSet::only(drilling));
         }
-        for axis in named.iter() {
-            level[axis] = self.target(axis)?;
-            self.now_known.add(axis);
-        }
+        let (level, moved) = self.targets_of(named)?;
+        self.now_known = self.now_known.or(moved);
         let transform = self.next.transform;
         let wrong = |condition, letter| match self.words.has(letter) {
             true => self.words.alarm(condition, letter),
@@ -134,16 +124,15 @@ impl Reading<'_> {
                 level,
                 axes: [x as u8, y as u8],
                 center: [level[x], level[y]],
-                radius: transform.size([x, y], size),
-                first_deg: transform.direction([x, y], angle),
-                step_deg: if transform.turns_over([x, y]) { -step } else { step },
+                arms: [transform.vector([x, y], [size, 0.0]), transform.vector([x, y], [0.0, size])],
+                first_deg: angle,
+                step_deg: step,
                 count: count.unsigned_abs() as u32,
             }
         } else {
             let (sin, cos) = sin_cos_deg(angle);
             let mut step = [0.0; AXES];
-            step[x] = transform.distance(x, size * cos);
-            step[y] = transform.distance(y, size * sin);
+            [step[x], step[y]] = transform.vector([x, y], [size * cos, size * sin]);
             Places::Row { first: level, step, count: count.unsigned_abs() as u32 }
         };
         // Positions of a pattern are gone to as by G00, under G60 too.

@@ -16,9 +16,9 @@ impl Interpreter {
         work
     }
 
-    /// The word of an axis that leads to a machine coordinate in a state (counts).
-    pub fn programmed(&self, state: &State, axis: usize, machine: f64) -> f64 {
-        self.reader.setting.programmed(state, axis, machine)
+    /// The words that lead to a place of the machine in a state (counts).
+    pub fn programmed(&self, state: &State, machine: &Point) -> Point {
+        self.reader.setting.programmed(state, machine)
     }
 
     /// Where program zero lies in a state, offsets included: mm and degrees, machine coordinates.

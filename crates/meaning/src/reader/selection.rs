@@ -1,6 +1,6 @@
 //! Where the reader stands: at the head of a program, sent on after a stop, at its end.
 
-use base::{Point, ProgramId, SourceId};
+use base::{AxisSet, Point, ProgramId, SourceId};
 use syntax::Cursor;
 
 use super::Reader;
@@ -104,5 +104,6 @@ impl Reader {
     /// Sets where the axes stand (counts).
     pub fn stand_at(&mut self, machine: Point) {
         self.state.machine = machine;
+        self.state.transform.apart = AxisSet::NONE;
     }
 }

@@ -166,7 +166,11 @@ impl Source<'_> {
         let unit = self.unit(axis);
         Ok(match meaning {
             VariableMeaning::BlockEnd => {
-                self.setting.programmed(state, axis, state.machine[axis] - state.displacement[axis]) / unit
+                let mut machine = state.machine;
+                for axis in 0..AXES {
+                    machine[axis] -= state.displacement[axis];
+                }
+                self.setting.last_programmed(state, &machine)[axis] / unit
             }
             VariableMeaning::MachinePosition => self.ask(Quantity::Position(axis as u8))? * 1e6 / unit,
             VariableMeaning::WorkPosition => {

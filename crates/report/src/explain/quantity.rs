@@ -28,7 +28,7 @@ pub fn coordinate(value: f64) -> String {
 pub fn quantity(read: ReadAs, value: f64, units: UnitSystem) -> String {
     let inch = units == UnitSystem::Inch;
     match read {
-        ReadAs::Number | ReadAs::Whole => plain(value, 6),
+        ReadAs::Number | ReadAs::Whole | ReadAs::Ratio => plain(value, 6),
         ReadAs::Length if inch => format!("{} in", fixed(value / INCH, 4)),
         ReadAs::Length => format!("{} mm", fixed(value, 3)),
         ReadAs::Angle => format!("{} deg", fixed(value, 3)),
@@ -44,7 +44,7 @@ pub fn quantity(read: ReadAs, value: f64, units: UnitSystem) -> String {
 /// The unit in which a word's value is given to programs that read JSON.
 pub const fn unit(read: ReadAs) -> &'static str {
     match read {
-        ReadAs::Number | ReadAs::Whole => "",
+        ReadAs::Number | ReadAs::Whole | ReadAs::Ratio => "",
         ReadAs::Length => "mm",
         ReadAs::Angle => "deg",
         ReadAs::Seconds => "s",

@@ -188,9 +188,5 @@ impl Watch {
 
 /// A place in the coordinates of a program.
 fn programmed<L: Library>(session: &Session<L>, state: &State, machine: &Point) -> Point {
-    let mut program = [0.0; AXES];
-    for axis in 0..session.configuration().machine.axes.len().min(AXES) {
-        program[axis] = session.interpreter().programmed(state, axis, machine[axis] * 1e6) / 1e6;
-    }
-    program
+    session.interpreter().programmed(state, &machine.map(|mm| mm * 1e6)).map(|counts| counts / 1e6)
 }

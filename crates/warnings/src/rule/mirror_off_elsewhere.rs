@@ -1,12 +1,13 @@
-//! `mirror-off-elsewhere`: mirror image or scale ends at another place than where it makes no difference.
+//! `mirror-off-elsewhere`: mirror image, scale or rotation ends at another place than where it makes no difference.
 //!
-//! What: M94 stands where the axis is not on the line of its M95, or, in G91, G50 stands away from the centre of G51.
-//! Why: the axis stands at a place that the unmirrored, unscaled program would call by another number. What follows by
+//! What: M94 stands where the axis is not on the line of its M95, or, in G91, G50 or G69 stands away from the centre of G51 or G68.
+//! Why: the axis stands at a place that the unmirrored, unscaled, unturned program would call by another number. What follows by
 //! distances is displaced by that difference, and goes on being so until an absolute word comes for the axis.
 //! Do: go back to the place of M95 (of the centre) before the cancelling block.
 //!
-//! Silent for scaling in G90, whose next word for the axis is absolute, and where the two numbers are one.
+//! Silent for scaling and rotation in G90, whose next word for the axis is absolute, and where the two numbers are one.
 
+use base::AxisSet;
 use dialect::Meaning;
 
 use crate::finding::{At, Finding, Found};
@@ -21,19 +22,22 @@ pub(crate) fn look(look: &Look, found: &mut Found) {
     let unmirrored = before.transform.mirrored.without(after.transform.mirrored);
     let unscaled = before.transform.scaled.without(after.transform.scaled);
     let in_distances = look.in_force(look.control.roles.distance) == Some(Meaning::Incremental);
-    let axes = if in_distances { unmirrored.or(unscaled) } else { unmirrored };
+    let (rotation, still_turned) = (before.transform.rotation, after.transform.rotation.on);
+    let unturned = match rotation.on && !still_turned {
+        true => rotation.axes.iter().fold(AxisSet::NONE, |set, &axis| set.or(AxisSet::only(usize::from(axis)))),
+        false => AxisSet::NONE,
+    };
+    let axes = if in_distances { unmirrored.or(unscaled).or(unturned) } else { unmirrored };
     if axes.is_empty() {
         return;
     }
     // The same place of the machine, as the program calls it with the old transform and with the new one.
-    let shift = |axis: usize| {
-        let machine = look.command.from[axis];
-        let programmed = |transform| {
-            let state = meaning::State { transform, ..*before };
-            look.interpreter.programmed(&state, axis, machine)
-        };
-        programmed(after.transform) - programmed(before.transform)
+    let programmed = |transform| {
+        let state = meaning::State { transform, ..*before };
+        look.interpreter.programmed(&state, &look.command.from)
     };
+    let (then, now) = (programmed(before.transform), programmed(after.transform));
+    let shift = |axis: usize| now[axis] - then[axis];
     let Some(axis) = axes.iter().find(|&axis| shift(axis).abs() >= SAME) else { return };
     found.say(Rule::MirrorOffElsewhere, &look.command.place, || {
         let letter = char::from(look.letter(axis)).to_string();
@@ -44,9 +48,12 @@ pub(crate) fn look(look: &Look, found: &mut Found) {
                 ("mirror", off)
             }
             false => {
-                let off =
-                    look.control.row_of(Meaning::ScalingOff).and_then(|row| look.control.g_codes.get(usize::from(row)));
-                ("scale", off.map_or(At::Block, |row| At::G(row.code)))
+                let (shade, code) = match unscaled.has(axis) {
+                    true => ("scale", Meaning::ScalingOff),
+                    false => ("rotation", Meaning::RotationOff),
+                };
+                let off = look.control.row_of(code).and_then(|row| look.control.g_codes.get(usize::from(row)));
+                (shade, off.map_or(At::Block, |row| At::G(row.code)))
             }
         };
         Finding::new(Rule::MirrorOffElsewhere, shade, look.command, at)
