@@ -21,11 +21,21 @@ pub(crate) fn settled(counts: f64) -> f64 {
 impl Reading<'_> {
     /// The coordinates programmed last.
     pub fn last_programmed(&self) -> Point {
+        self.setting.last_programmed(self.next, &self.undisplaced()).map(settled)
+    }
+
+    /// What the place where the axes stand is called under the scale and rotation in force.
+    pub fn present(&self) -> Point {
+        self.setting.programmed(self.next, &self.undisplaced()).map(settled)
+    }
+
+    /// Where the axes stand but for G45 to G48, machine coordinates.
+    fn undisplaced(&self) -> Point {
         let mut machine = self.next.machine;
         for axis in 0..self.setting.facts.axes.len().min(base::AXES) {
             machine[axis] = self.here(axis) - self.next.displacement[axis];
         }
-        self.setting.last_programmed(self.next, &machine).map(settled)
+        machine
     }
 
     /// Scale and rotation have changed: whether the axes keep the coordinates programmed last is the policy's.
@@ -62,12 +72,12 @@ impl Reading<'_> {
     }
 
     /// Turns rotation on or off; true if the block's words were the centre and nothing moves.
-    pub fn rotation(&mut self, code: Meaning, last: &Point) -> Result<bool, Alarm> {
+    pub fn rotation(&mut self, code: Meaning) -> Result<bool, Alarm> {
         let control = self.setting.control.as_ref();
-        let (Meaning::RotationOn, Some(rule)) = (code, control.rotation) else {
-            self.next.transform.rotation = Rotation::default();
-            return Ok(false);
-        };
+        // The rotation before has no part in where the new centre is.
+        let before = std::mem::take(&mut self.next.transform.rotation);
+        let (Meaning::RotationOn, Some(rule)) = (code, control.rotation) else { return Ok(false) };
+        let here = self.present();
         let Some([u, v]) = self.plane_axes() else {
             return Err(self.group_alarm(Condition::AddressUnavailable, control.roles.rotation));
         };
@@ -75,26 +85,26 @@ impl Reading<'_> {
         if let Some(axis) = self.axes_named()?.without(plane).iter().next() {
             return Err(self.axis_alarm(Condition::AxisWordsClaimedTwice, axis));
         }
-        let center = [self.centre_of(u, true, last)?, self.centre_of(v, true, last)?];
+        let center = [self.centre_of(u, true, &here)?, self.centre_of(v, true, &here)?];
         let angle = self.words.angle(control, rule.angle)?.unwrap_or(0.0) / 1e6;
         if angle.abs() > rule.most_deg {
             let values = [angle, -rule.most_deg, rule.most_deg];
             return Err(self.words.alarm(Condition::ValueOutOfRange, rule.angle).with(values));
         }
         let adds_up = !self.absolute && self.setting.fitting.parameter_if_any(rule.adds_up) == 1.0;
-        let before = if adds_up { self.next.transform.rotation.degrees } else { 0.0 };
+        let before = if adds_up { before.degrees } else { 0.0 };
         self.next.transform.rotation = Rotation { on: true, axes: [u as u8, v as u8], center, degrees: before + angle };
         Ok(true)
     }
 
     /// The centre of scale or rotation along an axis, program coordinates; the present position if it has no word.
-    pub fn centre_of(&self, axis: usize, by_distance: bool, last: &Point) -> Result<f64, Alarm> {
+    pub fn centre_of(&self, axis: usize, by_distance: bool, here: &Point) -> Result<f64, Alarm> {
         let named = self.setting.facts.axes.get(axis).is_some_and(|facts| self.words.has(facts.letter));
         if !named {
-            return Ok(last[axis]);
+            return Ok(here[axis]);
         }
         let (value, _) = self.axis_word(axis)?;
-        Ok(if by_distance && !self.absolute { last[axis] + value } else { value })
+        Ok(if by_distance && !self.absolute { here[axis] + value } else { value })
     }
 
     /// Modal codes of scale, rotation and polar coordinates; true if the block's words were a centre and nothing moves.
@@ -114,10 +124,10 @@ impl Reading<'_> {
         if scaling.is_some() || rotation.is_some() {
             let last = self.last_programmed();
             if let Some(code) = scaling {
-                taken |= self.scaling(code, &last)?;
+                taken |= self.scaling(code)?;
             }
             if let Some(code) = rotation {
-                taken |= self.rotation(code, &last)?;
+                taken |= self.rotation(code)?;
             }
             self.keep_programmed(&last);
         }

@@ -3,7 +3,7 @@
 //! Which letters carry the ratios and the centre, and what 1 in a ratio is worth, the control's table says. Along an axis
 //! whose centre is not named it is the present position.
 
-use base::{Alarm, AxisSet, Condition, Decimal, Point};
+use base::{Alarm, AxisSet, Condition, Decimal};
 use dialect::{Meaning, RatioUnit, ScaledAxes, ScalingCompany, ScalingNegativeRatio, ScalingRule};
 
 use crate::block::Reading;
@@ -25,9 +25,8 @@ impl Reading<'_> {
         self.control().in_force(&self.next.groups, group)
     }
 
-    /// Turns scaling on or off; true if the block's words were the centre and nothing moves. `last` are the coordinates
-    /// programmed last.
-    pub fn scaling(&mut self, code: Meaning, last: &Point) -> Result<bool, Alarm> {
+    /// Turns scaling on or off; true if the block's words were the centre and nothing moves.
+    pub fn scaling(&mut self, code: Meaning) -> Result<bool, Alarm> {
         let control = self.setting.control.as_ref();
         // Where codes have classes these say what may stand together.
         let alone = self.setting.fitting.policies.scaling_company == ScalingCompany::Alone;
@@ -38,10 +37,10 @@ impl Reading<'_> {
         if not_now && self.command.side != Side::Off {
             return Err(self.group_alarm(Condition::ScalingInCompensation, control.roles.scaling));
         }
-        let (Meaning::ScalingOn, Some(rule)) = (code, control.scaling.as_ref()) else {
-            self.next.transform.scaled = AxisSet::NONE;
-            return Ok(false);
-        };
+        // The scale before has no part in where the new centre is.
+        self.next.transform.scaled = AxisSet::NONE;
+        let (Meaning::ScalingOn, Some(rule)) = (code, control.scaling.as_ref()) else { return Ok(false) };
+        let here = self.present();
         let of_all = self.ratio_of_all(rule)?;
         let mut scaled = AxisSet::NONE;
         for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(TRANSFORMED) {
@@ -58,7 +57,7 @@ impl Reading<'_> {
             };
             let center = match older {
                 Some(center) => center,
-                None => self.centre_of(axis, rule.centre_by_distance, last)?,
+                None => self.centre_of(axis, rule.centre_by_distance, &here)?,
             };
             let own = match letter(rule.ratios) {
                 Some(letter) => self.ratio_of_one(rule, letter)?,

@@ -14,8 +14,17 @@ pub fn role(here: &Here, letter: u8, read: ReadAs, value: f64) -> Option<String>
             _ => "how long the tool waits at the bottom of the hole".to_owned(),
         });
     }
-    if here.axis(letter).is_some() {
-        return axis(here, letter, value);
+    if let Some((_, facts)) = here.axis(letter) {
+        return match polar(here, letter, read == ReadAs::Angle && !facts.rotary) {
+            Some(says) => Some(says),
+            None => axis(here, letter, value),
+        };
+    }
+    if read == ReadAs::Ratio {
+        return Some(ratio(letter, value));
+    }
+    if letter == b'R' && here.has_code(Meaning::RotationOn) {
+        return Some("angle of the rotation, + counter-clockwise".to_owned());
     }
     match letter {
         b'N' => Some("sequence number: a target of jumps and searches; nothing happens".to_owned()),
@@ -30,6 +39,38 @@ pub fn role(here: &Here, letter: u8, read: ReadAs, value: f64) -> Option<String>
         b'I' | b'J' | b'K' | b'R' => geometry(here, letter, value),
         _ => None,
     }
+}
+
+/// A word of the plane in polar coordinates.
+fn polar(here: &Here, letter: u8, is_angle: bool) -> Option<String> {
+    let after = &here.watched.after;
+    if !after.polar.on {
+        return None;
+    }
+    let how = if here.is_absolute() { "absolute" } else { "added to the angle so far" };
+    if is_angle {
+        return Some(format!("angle about the pole, + counter-clockwise, {how}"));
+    }
+    let plane = match here.in_force(here.control.roles.plane) {
+        Some(Meaning::PlaneZx) => b'Z',
+        Some(Meaning::PlaneYz) => b'Y',
+        _ => b'X',
+    };
+    let pole = if here.is_absolute() { "program zero" } else { "the present place" };
+    let taken = here.has_code(Meaning::ScalingOn) || here.has_code(Meaning::RotationOn) || here.one_shot().is_some();
+    (letter == plane && !taken).then(|| format!("radius from the pole, which is {pole}"))
+}
+
+/// A ratio of scaling.
+fn ratio(letter: u8, value: f64) -> String {
+    let along = match letter {
+        b'I' => "X",
+        b'J' => "Y",
+        b'K' => "Z",
+        _ => return "ratio of the axes that have none of their own".to_owned(),
+    };
+    let mirrors = if value < 0.0 { ", which it mirrors" } else { "" };
+    format!("ratio of {along}{mirrors}")
 }
 
 fn axis(here: &Here, letter: u8, value: f64) -> Option<String> {
@@ -51,6 +92,9 @@ fn axis(here: &Here, letter: u8, value: f64) -> Option<String> {
     }
     if here.has_code(Meaning::ScalingOn) {
         return Some(format!("{name} of the centre of scaling"));
+    }
+    if here.has_code(Meaning::RotationOn) {
+        return Some(format!("{name} of the centre of rotation"));
     }
     if here.has_code(Meaning::StrokeCheckOn) {
         return Some(format!("upper face of the box along {name}, machine coordinate"));

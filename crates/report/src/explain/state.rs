@@ -5,7 +5,7 @@
 use base::{AXES, AxisSet, Point};
 use dialect::{Control, VariableMeaning};
 use machine::MachineAxis;
-use meaning::{Corner, Interrupt, Spindle, State, StrokeBox, Transform};
+use meaning::{Corner, Interrupt, Polar, Spindle, State, StrokeBox, Transform};
 
 use super::quantity::{coordinate, plain};
 
@@ -111,7 +111,8 @@ impl List<'_> {
             groups: _, feed: _, spindle: _, tool: _, index: _, h: _, d: _, machine: _, length: _, length_due: _,
             sequence: _, memory_mark: _,
             base_origin, common_shift, universal_zero, displacement, cycle, miscellaneous, skip, block_control,
-            feed_control, reference, interrupt, buffering, corner, stroke, transform, spindle_direction, unknown,
+            feed_control, reference, interrupt, buffering, corner, stroke, transform, polar,
+            spindle_direction, unknown,
         } = state;
         self.counts("base origin", base_origin, unknown.origins);
         self.counts("shift of all systems", common_shift, AxisSet::NONE);
@@ -151,6 +152,7 @@ impl List<'_> {
         self.add("outside corners", or_none(corner.map(str::to_owned)));
         self.stroke(stroke);
         self.transform(transform);
+        self.polar(polar);
         let direction = spindle_direction.map(|direction| match direction {
             Spindle::Forward => "forward".to_owned(),
             Spindle::Reverse => "reverse".to_owned(),
@@ -170,13 +172,51 @@ impl List<'_> {
 
     fn transform(&mut self, transform: &Transform) {
         self.set("scaling: axes", transform.scaled);
-        self.add("scaling: factor", plain(transform.factor, 3));
-        self.counts("scaling: centre", &transform.center, AxisSet::NONE);
+        self.factors(transform);
+        let mut center = [0.0; AXES];
+        for (place, counts) in center.iter_mut().zip(transform.center) {
+            *place = counts;
+        }
+        self.counts("scaling: centre", &center, AxisSet::NONE);
+        let rotation = &transform.rotation;
+        if rotation.on {
+            self.add("rotation: angle", format!("{} deg", coordinate(rotation.degrees)));
+            for (&axis, counts) in rotation.axes.iter().zip(rotation.center) {
+                let letter = self.axes.get(usize::from(axis)).map_or('?', |axis| char::from(axis.letter));
+                self.add(format!("rotation: centre {letter}"), coordinate(counts / 1e6));
+            }
+        }
         self.switch("mirror", transform.mirror);
         self.set("mirror: axes", transform.mirrored);
         let axes = self.axes.iter().enumerate().filter(|(axis, _)| transform.mirrored.has(*axis));
         for (index, axis) in axes {
             self.add(format!("mirror: about {}", char::from(axis.letter)), coordinate(transform.line[index] / 1e6));
+        }
+    }
+}
+
+impl List<'_> {
+    /// One factor, or that of each axis where they differ.
+    fn factors(&mut self, transform: &Transform) {
+        let first = transform.factor[0];
+        let scaled = || self.axes.iter().zip(transform.factor).enumerate().filter(|(axis, _)| transform.scaled.has(*axis));
+        let value = if scaled().all(|(_, (_, factor))| factor == first) {
+            plain(first, 3)
+        } else {
+            let each: Vec<String> =
+                scaled().map(|(_, (axis, factor))| format!("{} {}", char::from(axis.letter), plain(factor, 4))).collect();
+            each.join(", ")
+        };
+        self.add("scaling: factor", value);
+    }
+
+    fn polar(&mut self, polar: &Polar) {
+        if polar.on {
+            self.add("polar: radius", coordinate(polar.radius / 1e6));
+            self.add("polar: angle", format!("{} deg", coordinate(polar.degrees)));
+            for (name, counts) in ["first", "second"].into_iter().zip(polar.pole) {
+                self.add(format!("polar: pole, {name} axis"), coordinate(counts / 1e6));
+            }
         }
     }
 }

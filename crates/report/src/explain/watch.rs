@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use base::{AXES, Alarm, Place, Point, SourceId};
+use base::{Alarm, Place, Point, SourceId};
 use machine::{Event, EventKind};
 use meaning::{State, StatementRead, WordsRead};
 use station::{Library, LibraryError, Session, Step};
