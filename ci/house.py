@@ -20,7 +20,19 @@ IMPURE = [
     (r"\brand::|\bHash(Map|Set)\b", "the same input gives the same output, in the same order"),
 ]
 UNFINISHED = [(r"#\[ignore", "a test that is not run is no test"), (r"\b(todo|unimplemented)!", "not built is a diagnostic, not a panic")]
-CONTROLS = re.compile(r"yasnac|incon", re.IGNORECASE)  # names of controls are data
+KNOWN = {"yasnac", "incon"}  # names of controls are data; those in controls/ are added
+# What says which control is loaded, and who may say it (to people). Nobody but dialect may decide by it.
+IDENTITY = r"\bcontrol(?:\(\))?\s*\.\s*(name|family|title|maker|summary)\b(?!\s*\()"
+SAYS = {"dialect": {"name", "family", "title", "maker", "summary"}, "station": {"title"}, "report": {"name", "title", "maker", "summary"},
+        "cli": {"name", "family", "title", "maker", "summary"}, "testkit": {"name", "family"}}
+ASKED = r"\s*(?:\.as_(?:str|ref|bytes)\(\))?"
+DECIDES = [
+    IDENTITY + ASKED + r"\s*(?:==|!=)",
+    IDENTITY + ASKED + r"\s*\.\s*(?:eq|ne|eq_ignore_ascii_case|starts_with|ends_with|contains|strip_prefix|find|split)\b",
+    r"(?:==|!=)\s*[&*]*\s*(?:\w+(?:\(\))?\s*\.\s*)*" + IDENTITY,
+    r"\bmatch\s+[&*]*\s*(?:\w+(?:\(\))?\s*\.\s*)*" + IDENTITY,
+    r"matches!\(\s*[&*]*\s*(?:\w+(?:\(\))?\s*\.\s*)*" + IDENTITY,
+]
 LITERAL = re.compile(r'r#"(.*?)"#|"((?:\\.|[^"\\])*)"')
 SKIPPED = {".git", "target", "run", "corpus", "artifacts", "node_modules", "__pycache__"}
 OUTSIDE = "../" + "shared"
@@ -65,8 +77,36 @@ def check_order(root: Path) -> list[str]:
     return found
 
 
-def check_sources(root: Path) -> list[str]:
+def control_names(root: Path) -> re.Pattern:
+    """Words by which text could mean one control: the first part of each name in controls/."""
+    folders = {path.parent.name.split("-")[0] for path in root.glob("controls/*/control.toml")}
+    return re.compile("|".join(sorted(re.escape(name) for name in KNOWN | folders)), re.IGNORECASE)
+
+
+def check_identity(root: Path) -> list[str]:
+    """No crate but dialect knows which control is loaded: few may say its name, none may decide by it."""
     found = []
+    for path in sorted(root.glob("crates/*/src/**/*.rs")):
+        crate, name = path.relative_to(root).parts[1], path.relative_to(root)
+        if crate == "dialect":
+            continue
+        # The lines of one expression belong together, so the code is looked at as a whole.
+        code = "\n".join(line for _, line in code_of(path.read_text(encoding="utf-8")))
+
+        def line_of(at: int) -> int:
+            return code.count("\n", 0, at) + 1
+
+        for match in re.finditer(IDENTITY, code):
+            if match.group(1) not in SAYS.get(crate, set()):
+                found.append(f"{name}:{line_of(match.start())}: asks which control is loaded: {match.group(0)}")
+        for rule in DECIDES:
+            found += [f"{name}:{line_of(match.start())}: decides by a control's name: {' '.join(match.group(0).split())}"
+                      for match in re.finditer(rule, code)]
+    return found
+
+
+def check_sources(root: Path) -> list[str]:
+    found, controls = [], control_names(root)
     for path in sorted(root.glob("crates/*/src/**/*.rs")):
         crate, name = path.relative_to(root).parts[1], path.relative_to(root)
         code = code_of(path.read_text(encoding="utf-8"))
@@ -75,7 +115,7 @@ def check_sources(root: Path) -> list[str]:
                 outside = LITERAL.sub('""', line)
                 found += [f"{name}:{number}: {why}: {line.strip()}" for rule, why in IMPURE if re.search(rule, outside)]
             is_default = crate == "cli" and ("default_value" in line or "help" in line)
-            if any(CONTROLS.search(text or raw) for raw, text in LITERAL.findall(line)) and not is_default:
+            if any(controls.search(text or raw) for raw, text in LITERAL.findall(line)) and not is_default:
                 found.append(f"{name}:{number}: a control's name is data, in controls/: {line.strip()}")
     return found
 
@@ -113,7 +153,7 @@ def crowded(root: Path) -> list[str]:
 
 
 def breaches(root: Path) -> list[str]:
-    return check_order(root) + check_sources(root) + check_unfinished(root) + check_outside(root)
+    return check_order(root) + check_sources(root) + check_identity(root) + check_unfinished(root) + check_outside(root)
 
 
 def main() -> int:

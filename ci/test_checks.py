@@ -72,6 +72,30 @@ class House(unittest.TestCase):
         self.assertEqual(self.check({"crates/cli/src/a.rs": default}, house.check_sources), [])
         self.assertEqual(len(self.check({"crates/meaning/src/a.rs": default}, house.check_sources)), 1)
 
+    def test_names_of_new_controls(self):
+        files = {"controls/heidi-3/control.toml": "", "crates/meaning/src/a.rs": 'if name.starts_with("heidi") {'}
+        self.assertEqual(len(self.check(files, house.check_sources)), 1)
+
+    def test_identity(self):
+        decisions = [
+            'if control.name == "a" {', "if other != control.family {", "if setting.control.title == title {", "match control().maker {",
+            "match self.setting.control.name.as_str() {", 'control.name.starts_with("a")', "control\n    .name\n    .as_str()\n    == other",
+            "matches!(self.control().family, _)", "if wanted == self.control().name {", 'configuration.control.title.contains("8")',
+        ]
+        for line in decisions:
+            # In a crate that may say the name, the decision alone is the breach.
+            self.assertGreaterEqual(len(self.check({"crates/cli/src/a.rs": line}, house.check_identity)), 1, line)
+            self.assertGreaterEqual(len(self.check({"crates/meaning/src/a.rs": line}, house.check_identity)), 2, line)
+            self.assertEqual(self.check({"crates/dialect/src/a.rs": line}, house.check_identity), [], line)
+            self.assertEqual(self.check({"crates/meaning/src/a.rs": f"#[cfg(test)]\n{line}"}, house.check_identity), [], line)
+        for crate, line, breaches in [
+            ("meaning", "let name = &self.setting.control.name;", 1), ("warnings", "control.family", 1), ("station", "control.name", 1),
+            ("station", 'format!("the {} has no axis", control.title)', 0), ("report", "text(&control.name)", 0),
+            ("cli", "cases.join(&control.family)", 0), ("meaning", "control.name_of(code)", 0), ("meaning", "control.g_name(row) == x", 0),
+            ("meaning", "// control.name == x", 0), ("meaning", "row.name == control.base", 0), ("meaning", "control.name(row)", 0),
+        ]:
+            self.assertEqual(len(self.check({f"crates/{crate}/src/a.rs": line}, house.check_identity)), breaches, line)
+
     def test_unfinished(self):
         for line in ["#[ignore]", '#[ignore = "slow"]', "    todo!()", "unimplemented!(\"later\")"]:
             self.assertEqual(len(self.check({"crates/a/tests/b.rs": line}, house.check_unfinished)), 1, line)

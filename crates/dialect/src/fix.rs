@@ -215,7 +215,7 @@ impl<'c> Rewriter<'c> {
             blocks.extend(self.arrange(rest));
             return (blocks, safe);
         }
-        let last = movements().last().map(|word| word.text.clone());
+        let last = movements().next_back().map(|word| word.text.clone());
         let keep = |word: &Word| !word.is(Class::Movement) || Some(&word.text) == last.as_ref();
         (self.arrange(once.iter().filter(|word| keep(word)).cloned().collect()), false)
     }

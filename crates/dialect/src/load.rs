@@ -4,6 +4,7 @@
 
 mod alarms;
 mod codes;
+mod grammar;
 mod members;
 mod settings;
 mod station;
@@ -12,7 +13,7 @@ mod user_macro;
 mod warnings;
 
 use data::{DataError, Document, Table};
-use syntax::{BlockDelete, Colon, Grammar, Grouping, LowerCase, Percent, Semicolon};
+use syntax::Grammar;
 
 use crate::combination::Combination;
 use crate::control::{Control, FeedSettings, Group, GroupRule, MOST_GROUPS, Roles, TapeRules, Tolerances};
@@ -116,37 +117,6 @@ struct Head {
     policies: Vec<crate::row::PolicyRow>,
 }
 
-fn grammar(root: &mut Table) -> (Grammar, bool) {
-    let read = |t: &mut Table| {
-        t.require("block_length");
-        let grammar = Grammar {
-            semicolon: t
-                .choice("semicolon", &[("end-of-block", Semicolon::EndOfBlock), ("comment", Semicolon::Comment)])
-                .unwrap_or_default(),
-            lower_case: t
-                .choice("lower_case", &[("refuse", LowerCase::Refuse), ("fold", LowerCase::Fold)])
-                .unwrap_or_default(),
-            colon: t
-                .choice("colon", &[("program-number", Colon::ProgramNumber), ("refuse", Colon::Refuse)])
-                .unwrap_or_default(),
-            grouping: t
-                .choice("programs", &[("o-words", Grouping::OWords), ("files", Grouping::Files)])
-                .unwrap_or_default(),
-            percent: t
-                .choice("percent", &[("end-of-tape", Percent::EndOfTape), ("ignore", Percent::Ignore)])
-                .unwrap_or_default(),
-            block_delete: t
-                .choice("block_delete", &[("anywhere", BlockDelete::Anywhere), ("head", BlockDelete::Head)])
-                .unwrap_or_default(),
-            block_length: t.integer("block_length").and_then(|n| u32::try_from(n).ok()).unwrap_or(u32::MAX),
-        };
-        let last = t.choice("repeated_word", &[("last-wins", true), ("refuse", false)]).unwrap_or(true);
-        (grammar, last)
-    };
-    root.require("grammar");
-    root.table("grammar", read).unwrap_or((Grammar::default(), true))
-}
-
 fn small(value: Option<i64>) -> usize {
     value.and_then(|n| usize::try_from(n).ok()).unwrap_or(0)
 }
@@ -159,7 +129,7 @@ fn head(root: &mut Table, member: &str) -> Head {
     {
         root.error(place, format!("format {format} is not known; this program reads format 1"));
     }
-    let (grammar, last_word_wins) = grammar(root);
+    let (grammar, last_word_wins) = grammar::grammar(root);
     for key in ["increments", "read_ahead", "nesting", "offsets", "cycle"] {
         root.require(key);
     }
