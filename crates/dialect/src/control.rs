@@ -6,6 +6,7 @@ use crate::address::Address;
 use crate::alarm::{AlarmRow, Sentences};
 use crate::combination::Combination;
 use crate::fitting::FROM_AXES;
+use crate::function::Functions;
 use crate::meaning::{MMeaning, Meaning};
 use crate::member::AxisLetter;
 use crate::policy::ASKED;
@@ -124,6 +125,8 @@ pub struct FeedSettings {
     pub limit: Option<usize>,
     /// Bits: 0 a dwell under feed per revolution counts turns, 1 in whole turns where it has no point.
     pub dwell: Option<usize>,
+    /// The fastest turning of the spindle under constant surface speed, rev/min.
+    pub spindle_limit: Option<usize>,
 }
 
 /// A control, validated.
@@ -167,6 +170,8 @@ pub struct Control {
     pub common_offsets: bool,
     /// M codes that cycles send: spindle forward, reverse, stop, orient.
     pub cycle_codes: [u32; 4],
+    /// The form that its functions have.
+    pub functions: Functions,
     /// Index of the parameter, and its bit, with which G92 presets the UNIVERSAL display; `None` if none does.
     pub universal_preset: Option<(usize, u8)>,
     /// Index of the parameter, and its bit, by which the second stored stroke area forbids its outside.

@@ -11,6 +11,7 @@ mod combination;
 mod control;
 mod fitting;
 mod fix;
+mod function;
 mod load;
 mod meaning;
 mod member;
@@ -33,16 +34,17 @@ pub use control::{
 };
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use fix::{Fix, Refused, Rewritten};
+pub use function::{CycleStep, CycleSteps, CycleTable, DataKinds, Functions, MOST_STEPS, ReferenceRules, WorkRules};
 pub use load::{ControlFiles, load_control};
 pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};
 pub use member::AxisLetter;
 pub use occasion::{Fate, Occasion, StateItem, StateRow};
 pub use policy::{
     ArcWithoutCentre, CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleWithMotion, DwellVariable,
-    FeedModeChange, G87Return, G92System, InchFeedInteger, M01OffOutput, MOver99, MdiCalls, OneShotCompany, Options,
-    Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ProgrammedPosition, ReferenceVia,
-    ResetPointer, ScalingBoreLevels, ScalingCompany, ScalingNegativeRatio, SkipWithoutSignal, StrokeCheck,
-    UnitChangeOffsets,
+    FeedModeChange, G87Return, G92System, InchFeedInteger, LengthWithoutZ, M01OffOutput, MOver99, MdiCalls,
+    OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter,
+    ProgrammedPosition, ReferenceVia, ResetPointer, ScalingBoreLevels, ScalingCompany, ScalingNegativeRatio,
+    SkipWithoutSignal, StrokeCheck, UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Class, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,

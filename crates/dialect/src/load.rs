@@ -4,6 +4,7 @@
 
 mod alarms;
 mod codes;
+mod functions;
 mod grammar;
 mod members;
 mod settings;
@@ -104,10 +105,8 @@ struct Head {
     highest_offset: u32,
     offset_limit_mm: f64,
     common_offsets: bool,
-    cycle_codes: [u32; 4],
-    base_code: Option<String>,
+    functions: functions::FunctionsDraft,
     universal_preset: Option<(String, u8)>,
-    stroke_outside: Option<(String, u8)>,
     mirror_setting: Option<String>,
     scaling: Option<transforms::ScalingDraft>,
     rotation: Option<transforms::RotationDraft>,
@@ -153,18 +152,11 @@ fn head(root: &mut Table, member: &str) -> Head {
         (common, small(t.integer("highest")) as u32, t.number("limit_mm").unwrap_or(f64::MAX))
     });
     let (common_offsets, highest_offset, offset_limit_mm) = offsets.unwrap_or((true, 99, f64::MAX));
-    let cycle_codes = root.table("cycle", |t| {
-        ["spindle_forward", "spindle_reverse", "spindle_stop", "spindle_orient"].map(|key| small(t.integer(key)) as u32)
-    });
-    let base_code = root.table("work", |t| t.string("base"));
     let universal_preset = root.table("displays", |t| {
         t.table("universal_preset", |bit| {
             let number = bit.integer("number").map_or_else(String::new, |number| number.to_string());
             (number, small(bit.integer("bit")).min(7) as u8)
         })
-    });
-    let stroke_outside = root.table("stored_stroke", |t| {
-        t.table("outside", |bit| (bit.required_string("name"), small(bit.integer("bit")).min(7) as u8))
     });
     let mirror_setting = root.table("mirror", |t| t.integer("axes").map(|number| number.to_string()));
     Head {
@@ -183,10 +175,8 @@ fn head(root: &mut Table, member: &str) -> Head {
         highest_offset,
         offset_limit_mm,
         common_offsets,
-        cycle_codes: cycle_codes.unwrap_or_default(),
-        base_code: base_code.flatten(),
+        functions: functions::functions(root),
         universal_preset: universal_preset.flatten(),
-        stroke_outside: stroke_outside.flatten(),
         mirror_setting: mirror_setting.flatten(),
         scaling: root.table("scaling", transforms::scaling),
         rotation: root.table("rotation", transforms::rotation),
@@ -244,15 +234,18 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     };
     let groups = resolve_groups(files, &head.groups, &g_codes, &parameters)?;
     let roles = find_roles(files, &groups, &g_codes)?;
-    let base_system = head.base_code.as_deref().and_then(|name| codes::row_of_name(&g_codes, name));
+    let base_system = head.functions.base_code.as_deref().and_then(|name| codes::row_of_name(&g_codes, name));
     let universal_preset = match &head.universal_preset {
         Some((name, bit)) => Some((parameter_index(files, &parameters, name)?, *bit)),
         None => None,
     };
-    let stroke_outside = match &head.stroke_outside {
+    let stroke_outside = match &head.functions.stroke_outside {
         Some((name, bit)) => Some((parameter_index(files, &parameters, name)?, *bit)),
         None => None,
     };
+    let mut functions = head.functions.functions;
+    functions.reference.before_start =
+        head.functions.before_start.as_deref().map(|name| parameter_index(files, &parameters, name)).transpose()?;
     let mirror_setting = match &head.mirror_setting {
         Some(name) => Some(parameter_index(files, &parameters, name)?),
         None => None,
@@ -272,6 +265,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         stored: std::array::from_fn(|index| parameter_if_any(&parameters, &format!("feed F{}", index + 1))),
         limit: parameter_if_any(&parameters, "cutting feed limit"),
         dwell: parameter_if_any(&parameters, "dwell in revolutions"),
+        spindle_limit: parameter_if_any(&parameters, "maximum spindle speed"),
     };
     let station = station::resolve(files, station, &parameters, &head.options)?;
     let whole_units = head.whole_units.as_deref().map(|name| parameter_index(files, &parameters, name)).transpose()?;
@@ -303,7 +297,8 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         highest_offset: head.highest_offset,
         offset_limit_mm: head.offset_limit_mm,
         common_offsets: head.common_offsets,
-        cycle_codes: head.cycle_codes,
+        cycle_codes: head.functions.cycle_codes,
+        functions,
         universal_preset,
         stroke_outside,
         mirror_setting,

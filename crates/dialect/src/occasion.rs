@@ -57,6 +57,8 @@ states! {
     ProgramPointer = "program-pointer",
     /// Passing over a tape's label.
     LabelSkip = "label-skip",
+    /// The local origin in every work system (G52).
+    LocalSystem = "local-system",
     /// Whether the reference points are established.
     ReferencePoints = "reference-points",
 }
@@ -81,6 +83,8 @@ pub struct StateRow {
     pub fates: [Fate; 4],
     /// The option that keeps it through an emergency stop.
     pub kept_by: Option<String>,
+    /// Index of the parameter that keeps it, power-on excepted, where it is not 0.
+    pub kept_by_parameter: Option<usize>,
     /// What the row rests on.
     pub origin: Origin,
 }
@@ -128,6 +132,7 @@ impl Fitting {
         match occasion {
             Occasion::EmergencyStop if kept => Fate::Keep,
             Occasion::PowerOn => row.fates[0],
+            _ if self.parameter_if_any(row.kept_by_parameter) != 0.0 => Fate::Keep,
             Occasion::Reset => row.fates[1],
             Occasion::EmergencyStop => row.fates[2],
             Occasion::ProgramEnd => row.fates[3],

@@ -132,6 +132,13 @@ policies! {
         /// The hundreds are dropped.
         DropHundreds = "drop-hundreds",
     }
+    /// When a changed length offset moves its axis, if no word of that axis stands in the block.
+    length_without_z: LengthWithoutZ = "length-offset-without-z" {
+        /// In the block that changes it.
+        AtOnce = "at-once",
+        /// With the next movement of the axis.
+        NextZ = "next-z",
+    }
     /// What a skip move is that ends without the signal.
     skip_without_signal: SkipWithoutSignal = "skip-without-signal" {
         /// It goes to its end point.

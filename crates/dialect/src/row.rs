@@ -71,6 +71,8 @@ pub struct GCode {
     pub meaning: Meaning,
     /// Which one of several alike (work system 1 to 6), 0 otherwise.
     pub number: u8,
+    /// Rows of the codes under which it is refused.
+    pub not_under: Vec<u8>,
     /// What it does, for people.
     pub text: String,
     /// What the row rests on.

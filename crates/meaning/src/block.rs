@@ -58,6 +58,8 @@ pub(crate) struct Reading<'r> {
     pub units: UnitSystem,
     pub absolute: bool,
     pub exact_stop: bool,
+    /// Tapping mode: cuts know no override.
+    pub tapping: bool,
     pub rapid_kind: RapidKind,
     pub position_offset: Option<PositionOffset>,
     /// The block calls a subprogram or returns from one: its P and L are the call's.
@@ -108,6 +110,7 @@ pub(crate) fn read_meaning(
         units: UnitSystem::Metric,
         absolute: true,
         exact_stop: false,
+        tapping: false,
         rapid_kind: RapidKind::Checked,
         position_offset: None,
         calls_or_returns: false,
@@ -125,7 +128,9 @@ pub(crate) fn read_meaning(
         _ => UnitSystem::Metric,
     };
     reading.absolute = control.in_force(groups, roles.distance) != Some(Meaning::Incremental);
-    let stops = control.in_force(groups, roles.stop_mode) == Some(Meaning::ExactStopMode)
+    let stop_mode = control.in_force(groups, roles.stop_mode);
+    reading.tapping = stop_mode == Some(Meaning::TappingMode);
+    let stops = stop_mode == Some(Meaning::ExactStopMode)
         || reading.one_shot.is_some_and(|(code, _)| code == Meaning::ExactStop);
     reading.exact_stop = stops && reading.next.feed_control & 4 == 0;
     reading.command.side = match control.in_force(groups, roles.compensation) {
@@ -308,6 +313,7 @@ impl Reading<'_> {
             Meaning::WriteData => self.write_data(),
             Meaning::CircleCutClockwise | Meaning::CircleCutCounterClockwise => self.cut_circle(code),
             Meaning::SetCoordinates => self.set_coordinates(),
+            Meaning::LocalCoordinates => self.local_coordinates(),
             Meaning::Skip => self.skip(),
             Meaning::CentringXy | Meaning::CentringX | Meaning::CentringY => self.centring(code),
             Meaning::ReferenceReturn => self.reference_return(),
@@ -375,9 +381,9 @@ impl Reading<'_> {
 
     /// Notes where the axis words stand and what is known now.
     fn finish(&mut self) {
-        // The words of a dwell, of G10 and of G92 lead nowhere.
-        let leads_nowhere =
-            matches!(self.one_shot, Some((Meaning::Dwell | Meaning::WriteData | Meaning::SetCoordinates, _)));
+        // The words of a dwell, of G10, G52 and G92 lead nowhere.
+        use Meaning::{Dwell, LocalCoordinates, SetCoordinates, WriteData};
+        let leads_nowhere = matches!(self.one_shot, Some((Dwell | WriteData | SetCoordinates | LocalCoordinates, _)));
         let places = !self.words_taken && !leads_nowhere;
         let mut absolute = AxisSet::NONE;
         for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
@@ -405,6 +411,7 @@ impl Reading<'_> {
             // An origin set from an unknown place is unknown; one set from a known place is known again.
             let named = self.axes_named().unwrap_or_default();
             unknown.origins = unknown.origins.without(named).or(named.and(unknown.axes));
+            unknown.memory |= self.control().functions.work.shifts_all && !named.and(unknown.axes).is_empty();
             unknown.groups &= !(1 << roles.work);
             self.next.unknown = unknown;
             return;

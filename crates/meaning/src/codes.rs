@@ -19,12 +19,17 @@ const HIGHEST_SPEED_CODE: u32 = 99;
 impl Reading<'_> {
     /// Takes the block's codes; returns where the program goes on.
     pub fn take_codes(&mut self) -> Result<Flow, Refusal> {
-        if !self.words.has_any(self.setting.code_letters) {
+        let by_surface = self.keeps_surface_speed();
+        if !by_surface && !self.words.has_any(self.setting.code_letters) {
             return Ok(Flow::Next);
         }
         let control = self.control();
         let digits = self.setting.facts.codes.digits;
-        if let Some(speed) = self.words.count(control, b'S')? {
+        if by_surface {
+            if let Some(speed) = self.follow_surface()? {
+                self.push_code(CodeLine::S, speed, digits[1], false, None)?;
+            }
+        } else if let Some(speed) = self.words.count(control, b'S')? {
             let coded = !self.setting.fitting.options.spindle_rpm;
             if coded && speed > HIGHEST_SPEED_CODE {
                 let values = [f64::from(speed), 0.0, f64::from(HIGHEST_SPEED_CODE)];
@@ -80,7 +85,7 @@ impl Reading<'_> {
                 flow = leads;
             }
             if row.to_machine {
-                self.push_code(CodeLine::M, code, digits, after, word)?;
+                self.push_code(CodeLine::M, code, digits, after, Some(word))?;
             }
         }
         // The program's end is stronger than a call or return in its block.
@@ -147,15 +152,18 @@ impl Reading<'_> {
         } else {
             code
         };
-        if let Some(direction) = Spindle::direction_of(sent, &self.setting.control.cycle_codes) {
-            self.next.spindle_direction = Some(direction);
+        if let Some(spindle) = Spindle::sent_by(sent, &self.setting.control.cycle_codes) {
+            self.next.spindle_stopped = !spindle.turns();
+            if spindle.turns() {
+                self.next.spindle_direction = Some(spindle);
+            }
         }
-        self.push_code(CodeLine::M, sent, lines, after, word)
+        self.push_code(CodeLine::M, sent, lines, after, Some(word))
     }
 
     fn send(&mut self, line: CodeLine, letter: u8, code: u32, digits: u8, after: bool) -> Result<(), Alarm> {
         match self.words.word(letter) {
-            Some(word) => self.push_code(line, code, digits, after, word),
+            Some(word) => self.push_code(line, code, digits, after, Some(word)),
             None => Ok(()),
         }
     }
@@ -166,15 +174,19 @@ impl Reading<'_> {
         code: u32,
         digits: u8,
         after: bool,
-        word: &syntax::Word,
+        word: Option<&syntax::Word>,
     ) -> Result<(), Alarm> {
+        let alarm = |condition| match word {
+            Some(word) => self.words.alarm_at(condition, word),
+            None => self.words.alarm(condition, b'S'),
+        };
         if code >= 10u32.saturating_pow(u32::from(digits)) {
             let values = [f64::from(code), f64::from(digits), 0.0];
-            return Err(self.words.alarm_at(Condition::CodeTooLargeForLines, word).with(values));
+            return Err(alarm(Condition::CodeTooLargeForLines).with(values));
         }
         let count = usize::from(self.command.code_count);
         if count >= MOST_CODES {
-            return Err(self.words.alarm_at(Condition::MSeveral, word));
+            return Err(alarm(Condition::MSeveral));
         }
         self.command.codes[count] = CodeOut { line, code, digits, after_motion: after };
         self.command.code_count += 1;

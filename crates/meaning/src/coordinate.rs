@@ -1,6 +1,6 @@
 //! Program coordinates to machine coordinates: work systems, G92, length offset.
 //!
-//! `machine = word + origin of the system in force + common shift (+ length offset on the length axis)`.
+//! `machine = word + origin of the system in force + external origin + common shift (+ length offset on its axis)`.
 
 use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
 use dialect::Meaning;
@@ -26,7 +26,7 @@ impl Setting {
             _ => state.base_origin[axis],
         };
         let length = if Some(axis) == self.length_axis { state.length } else { 0.0 };
-        origin + state.common_shift[axis] + length
+        origin + self.memory.external[axis] + state.common_shift[axis] + length
     }
 }
 
@@ -91,6 +91,9 @@ impl Reading<'_> {
     /// Sets the base system and selects it (policy `g92-system = base`), or shifts all systems alike (`all`). A
     /// parameter can have the UNIVERSAL display preset too.
     pub fn set_coordinates(&mut self) -> Result<(), Alarm> {
+        if self.control().functions.work.shifts_all {
+            return self.shift_systems();
+        }
         let control = self.control();
         let all_systems = self.setting.fitting.policies.g92_system == dialect::G92System::All;
         let axes = self.axes_named()?;
@@ -125,6 +128,30 @@ impl Reading<'_> {
         let system = self.next.groups.0[control.roles.work];
         let written = SetValue::WorkOrigin { system, axes, origin: self.setting.to_mm(&origin) };
         self.command.body = Body::Set(written, universal);
+        self.next.displacement = clear(self.next.displacement, axes);
+        Ok(())
+    }
+}
+
+impl Reading<'_> {
+    /// G92 where it shifts every system: the present place gets the given coordinates, the local origin of the named
+    /// axes is gone. Without words the shift is taken back on all axes.
+    fn shift_systems(&mut self) -> Result<(), Alarm> {
+        let mut axes = self.axes_named()?;
+        for axis in axes.iter() {
+            self.length_axis_placed(axis);
+            let (value, _) = self.axis_word(axis)?;
+            self.next.common_shift[axis] += self.next.machine[axis] - value - self.zero(axis);
+            self.next.local[axis] = 0.0;
+        }
+        if axes.is_empty() {
+            axes = self.setting.facts.all();
+            self.next.common_shift = self.next.local;
+        }
+        let (total, local) = (self.next.common_shift, self.next.local);
+        let shift = self.setting.to_mm(&std::array::from_fn(|axis| total[axis] - local[axis]));
+        let code = self.control().row_of(Meaning::SetCoordinates);
+        self.command.body = Body::Set(SetValue::Shift { code, axes, shift }, None);
         self.next.displacement = clear(self.next.displacement, axes);
         Ok(())
     }

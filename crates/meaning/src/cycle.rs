@@ -1,32 +1,21 @@
-//! Canned cycles: one file each, all as the same thing, a list of steps in one hole.
+//! Canned cycles: each a list of steps in one hole, which is a table of the control.
 //!
 //! Comes in: a block's words and the data that earlier blocks stored. Goes out: [`Holes`], which the expander works
 //! off step by step, so that a deep hole of a hundred thousand pecks needs no memory.
 
-mod back_bore;
-mod bore_dwell_feed_out;
-mod bore_dwell_manual_out;
-mod bore_feed_out;
-mod bore_manual_out;
-mod bore_stop_rapid_out;
-mod drill;
-mod fine_bore;
-mod high_speed_peck;
-mod left_tap;
-mod peck;
 mod reading;
-mod spot;
-mod tap;
+mod steps;
 
 pub(crate) mod pattern;
 
 use base::{Condition, Point, UnitSystem};
-use dialect::Meaning;
+use dialect::{CycleSteps, Meaning};
 
 use crate::coordinate::LENGTH_AXIS;
 use crate::operation::{Feed, RapidKind};
 use crate::word::Words;
 use pattern::Places;
+pub(crate) use steps::next_step;
 
 /// What a cycle keeps from block to block: R and bottom are program coordinates of Z, in counts.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -50,6 +39,7 @@ pub struct CycleData {
 pub(crate) struct Holes {
     /// What is done at each place; `None` goes to the places only.
     pub cycle: Option<Meaning>,
+    pub steps: CycleSteps,
     pub places: Places,
     /// Signed distances of positioning from one side, zero where there is none.
     pub approach: Point,
@@ -65,6 +55,8 @@ pub(crate) struct Holes {
     /// By how much boring cycles shift the tool off the wall, along these axes.
     pub shift: [f64; 2],
     pub shift_axes: [u8; 2],
+    /// Which way a cycle that wants the spindle turning starts it at the first hole; `None`: it turns so already.
+    pub start: Option<Spindle>,
     /// Which way the spindle turns after it has been stopped or oriented; `None` leaves it as it is.
     pub restart: Option<Spindle>,
     /// The tool leaves the hole by the operator's hand.
@@ -83,18 +75,14 @@ impl Holes {
 /// How far the work in one hole is.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Cursor {
-    pub phase: u32,
+    /// The step that is next.
+    pub step: u8,
+    /// How far a step of pecks is.
+    pub peck: u8,
     pub depth: f64,
 }
 
 impl Cursor {
-    /// This phase, stepping on to the next.
-    pub fn advance(&mut self) -> u32 {
-        let phase = self.phase;
-        self.phase += 1;
-        phase
-    }
-
     /// Cuts by Q from a level, to the bottom at most; true if it is reached.
     fn cut(&mut self, holes: &Holes, from: f64) -> bool {
         let next = from + holes.down() * holes.peck;
@@ -118,9 +106,15 @@ pub enum Spindle {
 }
 
 impl Spindle {
-    /// The direction in which an M code makes the spindle turn, if it does.
-    pub(crate) fn direction_of(code: u32, codes: &[u32; 4]) -> Option<Spindle> {
-        [Spindle::Forward, Spindle::Reverse].into_iter().find(|&spindle| codes[spindle as usize] == code)
+    /// What an M code makes the spindle do, if it is one of these codes.
+    pub(crate) fn sent_by(code: u32, codes: &[u32; 4]) -> Option<Spindle> {
+        const ALL: [Spindle; 4] = [Spindle::Forward, Spindle::Reverse, Spindle::Stop, Spindle::Orient];
+        ALL.into_iter().find(|&spindle| codes[spindle as usize] == code)
+    }
+
+    /// True if the spindle turns then.
+    pub(crate) const fn turns(self) -> bool {
+        matches!(self, Spindle::Forward | Spindle::Reverse)
     }
 }
 
@@ -137,6 +131,8 @@ pub(crate) enum Step {
     Dwell(f64),
     /// Send a spindle code and wait for it.
     Spindle(Spindle),
+    /// Start the spindle, if it does not turn as the cycle wants it.
+    Start,
     /// Start the spindle as it turned before.
     Restart,
     /// Rapid aside, off the wall of the hole.
@@ -147,30 +143,6 @@ pub(crate) enum Step {
     ByHand,
     /// The hole is done.
     Done,
-}
-
-type StepFn = fn(&Holes, &mut Cursor) -> Step;
-
-/// The cycles: a new one is a file and a line here.
-const CYCLES: &[(Meaning, StepFn)] = &[
-    (Meaning::Drill, drill::step),
-    (Meaning::Peck, peck::step),
-    (Meaning::Spot, spot::step),
-    (Meaning::HighSpeedPeck, high_speed_peck::step),
-    (Meaning::Tap, tap::step),
-    (Meaning::LeftTap, left_tap::step),
-    (Meaning::FineBore, fine_bore::step),
-    (Meaning::BackBore, back_bore::step),
-    (Meaning::BoreFeedOut, bore_feed_out::step),
-    (Meaning::BoreStopRapidOut, bore_stop_rapid_out::step),
-    (Meaning::BoreManualOut, bore_manual_out::step),
-    (Meaning::BoreDwellManualOut, bore_dwell_manual_out::step),
-    (Meaning::BoreDwellFeedOut, bore_dwell_feed_out::step),
-];
-
-/// The next step in a hole. A code that is no cycle has none.
-pub(crate) fn next_step(cycle: Meaning, holes: &Holes, at: &mut Cursor) -> Step {
-    CYCLES.iter().find(|(meaning, _)| *meaning == cycle).map_or(Step::Done, |(_, step)| step(holes, at))
 }
 
 /// True if the tool goes to the R level before the cycle's own steps; back boring goes there by itself, off the hole.
@@ -228,7 +200,7 @@ pub(crate) fn store(
         };
     }
     if let Some(q) = words.length(control, b'Q', units)? {
-        data.peck = q.abs();
+        data.peck = q;
     }
     Ok(())
 }
@@ -238,37 +210,45 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_cycle_has_its_steps_and_comes_to_an_end() {
-        let places = Places::Row { first: [0.0; base::AXES], step: [0.0; base::AXES], count: 1 };
-        let holes = Holes {
-            cycle: None,
-            places,
-            approach: [0.0; base::AXES],
-            axis: 2,
-            r: 2e6,
-            bottom: -5e6,
-            end: 10e6,
-            peck: 3e6,
-            clearance: 1e6,
-            dwell: 0.0,
-            shift: [1e6, 0.0],
-            shift_axes: [0, 1],
-            restart: None,
-            by_hand: false,
-            feed: Feed { mm_per_min: 100.0, exact_stop: false, tapping: false, per_revolution: false },
-            rapid: RapidKind::Checked,
-        };
-        for &(name, cycle) in Meaning::TABLE.iter().filter(|(_, meaning)| meaning.is_cycle()) {
-            let (mut at, mut steps, mut level) = (Cursor::default(), 0, holes.end);
-            loop {
-                match next_step(cycle, &holes, &mut at) {
-                    Step::Done => break,
-                    Step::Rapid(to) | Step::Feed(to) | Step::Tap(to) => level = to,
-                    _ => {}
+    fn every_cycle_of_every_control_has_its_steps_and_comes_to_an_end() {
+        for control in dialect::builtin_controls() {
+            let files = dialect::builtin_files(&control).expect("it is built in");
+            let table = dialect::load_control(&files).expect("it loads");
+            let cycles = table.g_codes.iter().filter(|code| code.meaning.is_cycle());
+            for code in cycles.filter(|code| code.division != dialect::Division::Sibling) {
+                let places = Places::Row { first: [0.0; base::AXES], step: [0.0; base::AXES], count: 1 };
+                let holes = Holes {
+                    cycle: Some(code.meaning),
+                    steps: table.functions.cycle.steps_of(code.meaning),
+                    places,
+                    approach: [0.0; base::AXES],
+                    axis: 2,
+                    r: 2e6,
+                    bottom: -5e6,
+                    end: 10e6,
+                    peck: 3e6,
+                    clearance: 1e6,
+                    dwell: 0.0,
+                    shift: [1e6, 0.0],
+                    shift_axes: [0, 1],
+                    start: None,
+                    restart: None,
+                    by_hand: false,
+                    feed: Feed { mm_per_min: 100.0, exact_stop: false, tapping: false, per_revolution: false },
+                    rapid: RapidKind::Checked,
+                };
+                let (mut at, mut steps, mut level) = (Cursor::default(), 0, holes.end);
+                loop {
+                    match next_step(&holes, &mut at) {
+                        Step::Done => break,
+                        Step::Rapid(to) | Step::Feed(to) | Step::Tap(to) => level = to,
+                        _ => {}
+                    }
+                    steps += 1;
                 }
-                steps += 1;
+                let name = format!("{control} G{:02}", code.code);
+                assert!((2..=12).contains(&steps) && level == holes.end, "{name}: {steps} steps, left at {level}");
             }
-            assert!((2..=12).contains(&steps) && level == holes.end, "{name}: {steps} steps, left at {level}");
         }
     }
 }

@@ -17,45 +17,64 @@ use crate::setting::Setting;
 pub(crate) enum DataWrite {
     /// A tool offset, nanometres.
     Offset { number: u32, value: f64 },
+    /// A tool radius, where radii have a column of their own, nanometres.
+    Radius { number: u32, value: f64 },
+    /// The origin that counts in every work system.
+    External { origin: Point },
     /// The origin of a work system (index from 0), counts in machine coordinates.
     Work { system: usize, origin: Point },
 }
 
-/// Q (or L) of work origins.
-const WORK_ORIGINS: i64 = 2;
+/// What G10 writes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Length,
+    Radius,
+    Work,
+}
 
 impl Reading<'_> {
-    /// G10: P and R write a tool offset, with Q2 (L2) P and the axis words a work origin. In incremental mode the
-    /// value is added to the stored one.
+    /// G10: P and R write a tool offset, P and the axis words a work origin; a letter that the control names says
+    /// which. In incremental mode the value is added to the stored one.
     pub fn write_data(&mut self) -> Result<(), Alarm> {
         let control = self.setting.control.as_ref();
-        let mut kind = None;
-        for letter in [b'Q', b'L'] {
+        let kinds = &control.functions.data;
+        let mut kind = Kind::Length;
+        for &letter in &kinds.letters {
             let Some(value) = self.words.integer(control, letter)? else { continue };
-            if value != WORK_ORIGINS {
-                return Err(self.words.alarm(Condition::DataKindUnknown, letter).with([value as f64, 0.0, 0.0]));
-            }
-            kind = Some(value);
+            kind = match Some(value) {
+                written if written == Some(kinds.work) => Kind::Work,
+                written if written == kinds.length => Kind::Length,
+                written if written == kinds.radius => Kind::Radius,
+                _ => {
+                    let alarm = self.words.alarm(Condition::DataKindUnknown, letter);
+                    return Err(alarm.with([value as f64, 0.0, 0.0]));
+                }
+            };
         }
         let number = self.words.count(control, b'P')?;
-        let highest = if kind.is_some() { self.setting.memory.work.len() as u32 } else { control.highest_offset };
-        let Some(number) = number.filter(|&number| number > 0 && number <= highest) else {
+        let is_work = kind == Kind::Work;
+        let highest = if is_work { self.setting.memory.work.len() as u32 } else { control.highest_offset };
+        let least = u32::from(!(is_work && control.functions.work.external));
+        let Some(number) = number.filter(|&number| number >= least && number <= highest) else {
             let values = [f64::from(number.unwrap_or(0)), f64::from(highest), 0.0];
             return Err(self.at_word_or_code(b'P', Condition::DataNumber).with(values));
         };
-        if kind.is_some() { self.write_work_origin(number) } else { self.write_offset(number) }
+        if is_work { self.write_work_origin(number) } else { self.write_offset(kind, number) }
     }
 
     fn at_word_or_code(&self, letter: u8, condition: Condition) -> Alarm {
         if self.words.has(letter) { self.words.alarm(condition, letter) } else { self.one_shot_alarm(condition) }
     }
 
-    fn write_offset(&mut self, number: u32) -> Result<(), Alarm> {
+    fn write_offset(&mut self, kind: Kind, number: u32) -> Result<(), Alarm> {
         let control = self.setting.control.as_ref();
         let Some(value) = self.words.length(control, b'R', self.units)? else {
             return Err(self.one_shot_alarm(Condition::DataValueMissing));
         };
-        let before = self.offset(self.setting.memory.length(number)).unwrap_or(0.0);
+        let memory = &self.setting.memory;
+        let stored = if kind == Kind::Radius { memory.radius(number) } else { memory.length(number) };
+        let before = self.offset(stored).unwrap_or(0.0);
         let value = if self.absolute { value } else { before + value };
         let inch = self.units == UnitSystem::Inch;
         let limit = self.setting.offset_limit(inch);
@@ -63,19 +82,28 @@ impl Reading<'_> {
             return Err(self.words.alarm(Condition::OffsetRange, b'R').with([value / 1e6, limit / 1e6, 0.0]));
         }
         let stored = self.setting.offset_stored(value, inch);
-        self.command.write = Some(DataWrite::Offset { number, value: stored });
-        self.command.body = Body::Set(SetValue::Offset { number, value: value / 1e6 }, None);
+        let (write, told) = match kind {
+            Kind::Radius => {
+                (DataWrite::Radius { number, value: stored }, SetValue::Radius { number, value: value / 1e6 })
+            }
+            _ => (DataWrite::Offset { number, value: stored }, SetValue::Offset { number, value: value / 1e6 }),
+        };
+        self.command.write = Some(write);
+        self.command.body = Body::Set(told, None);
         Ok(())
     }
 
     fn write_work_origin(&mut self, number: u32) -> Result<(), Alarm> {
-        let system = number as usize - 1;
+        // Number 0 is the origin that counts in every system.
+        let system = (number as usize).checked_sub(1);
         let axes = self.axes_named()?;
         if axes.is_empty() {
             return Err(self.one_shot_alarm(Condition::DataValueMissing));
         }
-        let Some(&before) = self.setting.memory.work.get(system) else {
-            return Err(self.one_shot_alarm(Condition::DataNumber));
+        let memory = &self.setting.memory;
+        let before = match system {
+            None => memory.external,
+            Some(index) => memory.work.get(index).copied().unwrap_or_default(),
         };
         let mut origin = before;
         for axis in axes.iter() {
@@ -83,8 +111,15 @@ impl Reading<'_> {
             origin[axis] = if self.absolute { value } else { before[axis] + value };
             self.check_origin(axis, origin[axis])?;
         }
-        self.command.write = Some(DataWrite::Work { system, origin });
-        self.command.body = Body::Set(self.setting.work_origin(system, axes, &origin), None);
+        let (write, told) = match system {
+            None => {
+                let shift = self.setting.to_mm(&origin);
+                (DataWrite::External { origin }, SetValue::Shift { code: None, axes, shift })
+            }
+            Some(system) => (DataWrite::Work { system, origin }, self.setting.work_origin(system, axes, &origin)),
+        };
+        self.command.write = Some(write);
+        self.command.body = Body::Set(told, None);
         Ok(())
     }
 
@@ -150,13 +185,21 @@ impl Memory {
                 self.lengths.set(number, value);
                 mark(u64::from(number), before) ^ mark(u64::from(number), value)
             }
+            DataWrite::Radius { number, value } => {
+                let Some(radii) = &mut self.radii else { return 0 };
+                let before = radii.value(number).unwrap_or(0.0);
+                radii.set(number, value);
+                let place = RADIUS_PLACES + u64::from(number);
+                mark(place, before) ^ mark(place, value)
+            }
+            DataWrite::External { origin } => {
+                let change = origin_mark(self.work.len(), &self.external, &origin);
+                self.external = origin;
+                change
+            }
             DataWrite::Work { system, origin } => {
                 let Some(stored) = self.work.get_mut(system) else { return 0 };
-                let mut change = 0;
-                for axis in 0..AXES {
-                    let place = WORK_PLACES + (system * AXES + axis) as u64;
-                    change ^= mark(place, stored[axis]) ^ mark(place, origin[axis]);
-                }
+                let change = origin_mark(system, stored, &origin);
                 *stored = origin;
                 change
             }
@@ -164,6 +207,16 @@ impl Memory {
     }
 }
 
+/// By what the mark changes with an origin.
+fn origin_mark(system: usize, before: &Point, after: &Point) -> u64 {
+    (0..AXES).fold(0, |change, axis| {
+        let place = WORK_PLACES + (system * AXES + axis) as u64;
+        change ^ mark(place, before[axis]) ^ mark(place, after[axis])
+    })
+}
+
+/// Places of radii in the mark, beyond every offset number.
+const RADIUS_PLACES: u64 = 1 << 31;
 /// Places of work origins in the mark, beyond every offset number.
 const WORK_PLACES: u64 = 1 << 32;
 
@@ -187,7 +240,13 @@ mod tests {
         let files = dialect::builtin_files("yasnac-mx1").expect("it is built in");
         let control = dialect::load_control(&files).expect("it loads");
         let variables = Variables::new(&control.user_macro, 1);
-        let mut memory = Memory { lengths: OffsetTable::new(99), radii: None, work: [[0.0; AXES]; 6], variables };
+        let mut memory = Memory {
+            lengths: OffsetTable::new(99),
+            radii: None,
+            work: [[0.0; AXES]; 6],
+            external: [0.0; AXES],
+            variables,
+        };
         let first = memory.write(DataWrite::Offset { number: 3, value: 5e6 });
         let second = memory.write(DataWrite::Offset { number: 3, value: 0.0 });
         assert!(first != 0 && first ^ second == 0);

@@ -252,7 +252,7 @@ impl Expansion {
                 }
                 (2, Some(_)) => None,
                 (_, cycle) => {
-                    let step = cycle.map_or(Step::Done, |cycle| next_step(cycle, holes, &mut self.cursor));
+                    let step = if cycle.is_some() { next_step(holes, &mut self.cursor) } else { Step::Done };
                     if step != Step::Done {
                         self.step(step, holes, around)
                     } else {
@@ -304,6 +304,8 @@ impl Expansion {
             }
             Step::Dwell(seconds) => (seconds > 0.0).then_some(Act::Dwell(Dwell::Seconds(seconds))),
             Step::Spindle(spindle) => Some(spindle_code(spindle, around)),
+            Step::Start if self.hole > 0 => None,
+            Step::Start => holes.start.map(|spindle| spindle_code(spindle, around)),
             Step::Restart => holes.restart.map(|spindle| spindle_code(spindle, around)),
             Step::Aside => {
                 for (axis, shift) in holes.shift_axes.into_iter().zip(holes.shift) {

@@ -89,6 +89,8 @@ pub struct Memory {
     pub variables: Variables,
     /// Origins of the work systems 1 to 6: machine coordinates in nanometres or microdegrees.
     pub work: [Point; 6],
+    /// An origin that counts in every work system, on a control that has one.
+    pub external: Point,
 }
 
 impl Memory {

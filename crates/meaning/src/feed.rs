@@ -10,10 +10,19 @@ use crate::record::ReadAs;
 use crate::state::FeedWord;
 
 impl Reading<'_> {
-    /// True under feed per revolution.
+    /// True where F counts per revolution: under feed per revolution, and of a thread, whose lead it is.
     pub fn is_per_revolution(&self) -> bool {
         let control = self.setting.control.as_ref();
         control.in_force(&self.next.groups, control.roles.feed_mode) == Some(Meaning::FeedPerRevolution)
+            || self.cuts_thread()
+    }
+
+    /// True if the block's cut is synchronised with the spindle.
+    fn cuts_thread(&self) -> bool {
+        let (control, groups) = (self.setting.control.as_ref(), &self.next.groups);
+        control.in_force(groups, control.roles.motion) == Some(Meaning::Thread)
+            && matches!(self.one_shot, None | Some((Meaning::ExactStop, _)))
+            && !control.in_force(groups, control.roles.cycle).is_some_and(Meaning::is_cycle)
     }
 
     /// The block's F.
@@ -99,7 +108,7 @@ impl Reading<'_> {
         if limit > 0.0 && mm.is_finite() {
             mm = mm.min(limit);
         }
-        Ok(Feed { mm_per_min: mm, exact_stop: self.exact_stop, tapping: false, per_revolution })
+        Ok(Feed { mm_per_min: mm, exact_stop: self.exact_stop, tapping: self.tapping, per_revolution })
     }
 
     /// The spindle speed that S has set, rev/min.

@@ -18,6 +18,7 @@ impl Reading<'_> {
         let mut rows = [0u8; MOST_G];
         let mut places = [0usize; MOST_G];
         let mut count = 0;
+        let mut restricted = false;
         for (index, word) in self.words.block.words.iter().take(self.word_count).enumerate() {
             if word.letter != b'G' {
                 continue;
@@ -31,6 +32,7 @@ impl Reading<'_> {
             places[count] = index;
             count += 1;
             let Some(code) = control.g_codes.get(usize::from(row)) else { continue };
+            restricted |= !code.not_under.is_empty();
             match code.group {
                 Some(group) => {
                     self.next.groups.0[usize::from(group)] = row;
@@ -52,7 +54,27 @@ impl Reading<'_> {
                 Some(word) => self.words.alarm_at(condition, word),
                 None => self.words.alarm(condition, b'G'),
             }
-        })
+        })?;
+        if restricted { self.check_states(&rows[..count], &places) } else { Ok(()) }
+    }
+
+    /// Refuses a code that its row forbids under another in force.
+    #[cold]
+    #[inline(never)]
+    fn check_states(&self, rows: &[u8], places: &[usize]) -> Result<(), Alarm> {
+        let control = self.control();
+        let row = |row: u8| control.g_codes.get(usize::from(row));
+        for (&written, &place) in rows.iter().zip(places) {
+            for &other in row(written).map_or(&[][..], |code| &code.not_under) {
+                let Some(code) = row(other) else { continue };
+                let in_force = code.group.is_some_and(|group| self.next.groups.0[usize::from(group)] == other);
+                if let (true, Some(word)) = (in_force, self.words.block.words.get(place)) {
+                    let values = [f64::from(code.code), 0.0, 0.0];
+                    return Err(self.words.alarm_at(Condition::StateForbids, word).with(values));
+                }
+            }
+        }
+        Ok(())
     }
 
     fn g_row(&self, word: &syntax::Word) -> Result<u8, Alarm> {

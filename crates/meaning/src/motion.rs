@@ -1,13 +1,13 @@
 //! Positioning, lines and arcs: from the words of a block to one move in machine coordinates.
 
 use base::{AXES, Alarm, AxisSet, Condition, Point};
-use dialect::{ArcWithoutCentre, Meaning, PositionOffsetArcRadius, PositionOffsetLetter};
+use dialect::{ArcWithoutCentre, LengthWithoutZ, Meaning, PositionOffsetArcRadius, PositionOffsetLetter};
 
 use crate::arc::{ArcWords, solve};
 use crate::block::Reading;
 use crate::command::Body;
 use crate::coordinate::LENGTH_AXIS;
-use crate::operation::{Plane, RapidKind, Side};
+use crate::operation::{Feed, Plane, RapidKind, Side};
 use crate::position_offset::PositionOffset;
 
 impl Reading<'_> {
@@ -24,6 +24,11 @@ impl Reading<'_> {
                 match motion {
                     Meaning::Linear => {
                         let feed = self.feed_to(&to)?;
+                        self.command.body = Body::Line { to, feed };
+                    }
+                    Meaning::Thread => {
+                        // Neither override nor feed hold may part the tool from the thread.
+                        let feed = Feed { tapping: true, ..self.feed_to(&to)? };
                         self.command.body = Body::Line { to, feed };
                     }
                     Meaning::OneSidedPositioning => self.one_sided(to, moved),
@@ -112,10 +117,13 @@ impl Reading<'_> {
         if !has_center && !has_radius && self.axes_named()?.is_empty() && !self.words.has(b'H') {
             return Ok(());
         }
-        if self.length_change != 0.0 && (has_center || has_radius || !self.axes_named()?.is_empty()) {
+        let axes = plane.letters().map(|letter| self.arc_axis(letter));
+        // An offset that waits for its axis disturbs no arc beside it.
+        let takes_up = self.setting.fitting.policies.length_without_z == LengthWithoutZ::AtOnce
+            || axes.contains(&self.setting.length_axis);
+        if self.length_change != 0.0 && takes_up && (has_center || has_radius || !self.axes_named()?.is_empty()) {
             return Err(self.words.alarm(Condition::LengthOffsetWithArc, b'H'));
         }
-        let axes = plane.letters().map(|letter| self.arc_axis(letter));
         let [Some(u), Some(v)] = axes else { return Err(self.motion_alarm(Condition::AddressUnavailable)) };
         let (from_program, stretched) = match self.next.transform.stretches([u, v]) {
             true => (self.last_programmed(), has_center && !has_radius),

@@ -1,5 +1,6 @@
 //! The state after power-on, RESET, emergency stop or a program's end that resets, as the control's table says.
 
+use base::AXES;
 use dialect::{Fate, Occasion, StateItem};
 
 use crate::cycle::CycleData;
@@ -39,6 +40,12 @@ fn take(state: &mut State, item: StateItem, from: &State) {
         StateItem::Mirror => {
             state.transform.mirror = from.transform.mirror;
             state.transform.mirrored = from.transform.mirrored;
+        }
+        StateItem::LocalSystem => {
+            for axis in 0..AXES {
+                state.common_shift[axis] += from.local[axis] - state.local[axis];
+            }
+            state.local = from.local;
         }
         StateItem::ReferencePoints => state.reference.established = from.reference.established,
         StateItem::Corner => state.corner = from.corner,

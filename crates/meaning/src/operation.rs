@@ -146,7 +146,23 @@ pub enum SetValue {
         /// Its value; a blank is [`crate::BLANK`].
         value: f64,
     },
-    /// A tool offset.
+    /// A tool radius, where radii have a column of their own.
+    Radius {
+        /// Its number.
+        number: u32,
+        /// Its value, mm.
+        value: f64,
+    },
+    /// A shift of every work system: of this G row, or (`None`) the external one; mm or degrees on the named axes.
+    Shift {
+        /// Row of the G code that shifts.
+        code: Option<u8>,
+        /// The axes written.
+        axes: AxisSet,
+        /// By how much it shifts now.
+        shift: Point,
+    },
+    /// A tool offset; a length where radii have a column of their own.
     Offset {
         /// Its number.
         number: u32,

@@ -53,7 +53,7 @@ impl Reading<'_> {
     }
 
     fn return_to(&mut self, which: usize) -> Result<AxisSet, Alarm> {
-        let axes = self.axes_named()?;
+        let axes = self.reference_axes()?;
         let mut to = self.next.machine;
         let via = self.via_targets(axes)?;
         for axis in axes.iter() {
@@ -61,6 +61,12 @@ impl Reading<'_> {
             to[axis] = self.setting.reference_point(axis, which);
             self.next.displacement[axis] = 0.0;
             self.next.reference.via[axis] = via[axis];
+        }
+        if self.control().functions.reference.drops_length
+            && self.setting.length_axis.is_some_and(|axis| axes.has(axis))
+        {
+            // The axis stands at the point itself: the whole offset is due with its next movement.
+            self.next.length_due = self.next.length;
         }
         self.next.reference.remembered = self.next.reference.remembered.or(axes);
         // Where the reference point is, the axis is known again, whatever came before.
@@ -72,13 +78,17 @@ impl Reading<'_> {
 
     /// G29: through the remembered intermediate point to the given one, from which an incremental word counts.
     pub fn return_from_reference(&mut self) -> Result<(), Alarm> {
-        let axes = self.axes_named()?;
+        let axes = self.reference_axes()?;
         for axis in axes.iter() {
             if !self.next.reference.remembered.has(axis) {
                 return Err(self.axis_alarm(Condition::IntermediatePointMissing, axis));
             }
             self.next.machine[axis] = self.next.reference.via[axis];
             self.next.transform.close_gap(axis);
+            if self.control().functions.reference.drops_length && Some(axis) == self.setting.length_axis {
+                // The intermediate point holds the offset.
+                (self.length_change, self.next.length_due) = (0.0, 0.0);
+            }
         }
         let via = self.next.machine;
         let (to, moved) = self.targets_of(axes)?;
@@ -88,14 +98,24 @@ impl Reading<'_> {
         Ok(())
     }
 
+    /// The axes that a code of the reference points names; none is refused where the control wants one.
+    fn reference_axes(&self) -> Result<AxisSet, Alarm> {
+        let axes = self.axes_named()?;
+        if axes.is_empty() && self.control().functions.reference.wants_axis {
+            return Err(self.one_shot_alarm(Condition::AxisWordMissing));
+        }
+        Ok(axes)
+    }
+
     /// G27: positions, then compares with the first reference point.
     pub fn reference_check(&mut self) -> Result<(), Alarm> {
-        let axes = self.axes_named()?;
+        let axes = self.reference_axes()?;
         let offset = |axis: usize| {
             let length = if Some(axis) == self.setting.length_axis { self.next.length } else { 0.0 };
             length != 0.0 || self.next.displacement[axis] != 0.0
         };
-        if self.command.side != Side::Off || axes.iter().any(offset) {
+        let by_place = self.control().functions.reference.checks_places;
+        if self.command.side != Side::Off || !by_place && axes.iter().any(offset) {
             return Err(self.one_shot_alarm(Condition::ReferenceCheckWithOffset));
         }
         let (to, moved) = self.targets()?;
@@ -115,11 +135,18 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// Refuses to move an axis that has not been returned since power-on, unless that is what the block does.
+    /// Refuses to move an axis that has not been returned since power-on, unless that is what the block does; or to do
+    /// anything before all have been, where the control says so.
     pub fn check_returned(&self) -> Result<(), Alarm> {
-        let moved = self.now_known.without(self.before.reference.established);
-        match moved.iter().next() {
-            Some(axis) if !matches!(self.one_shot, Some((Meaning::ReferenceReturn, _))) => {
+        let before_start = self.control().functions.reference.before_start;
+        let (wanted, all) = match before_start {
+            None => (self.now_known, false),
+            Some(parameter) if self.setting.fitting.parameter(parameter) == 0.0 => (self.setting.facts.all(), true),
+            Some(_) => return Ok(()),
+        };
+        let missing = wanted.without(self.before.reference.established);
+        match missing.iter().next() {
+            Some(axis) if all || !matches!(self.one_shot, Some((Meaning::ReferenceReturn, _))) => {
                 Err(self.axis_alarm(Condition::ReferenceNotDone, axis))
             }
             _ => Ok(()),

@@ -58,8 +58,10 @@ pub struct State {
     pub machine: Point,
     /// Origin of the base work system.
     pub base_origin: Point,
-    /// Shift of all work systems together.
+    /// Shift of all work systems together, that of the local origin included.
     pub common_shift: Point,
+    /// The local origin in every work system (G52).
+    pub local: Point,
     /// Machine coordinate at which the UNIVERSAL display shows zero.
     pub universal_zero: Point,
     /// Length offset applied to the length axis.
@@ -96,6 +98,10 @@ pub struct State {
     pub polar: Polar,
     /// Which way the spindle was last told to turn, by the program or by a cycle; a stop does not change it.
     pub spindle_direction: Option<Spindle>,
+    /// It was told to stop since.
+    pub spindle_stopped: bool,
+    /// Surface speed kept under G96, nanometres a minute; 0 if none was programmed.
+    pub surface_speed: f64,
     /// Changes with every value that the program writes into memory, and comes back when the value does.
     pub memory_mark: u64,
     /// What cannot be known after a refused block.
@@ -116,6 +122,7 @@ impl State {
             machine,
             base_origin,
             common_shift: [0.0; AXES],
+            local: [0.0; AXES],
             universal_zero: [0.0; AXES],
             length: 0.0,
             length_due: 0.0,
@@ -134,6 +141,8 @@ impl State {
             transform: Transform::default(),
             polar: Polar::default(),
             spindle_direction: None,
+            spindle_stopped: false,
+            surface_speed: 0.0,
             memory_mark: 0,
             unknown: Unknown::default(),
         }

@@ -1,6 +1,7 @@
 //! G22 and G23: the second stored stroke area, a box in machine coordinates.
 //!
-//! G22 X Y Z I J K: X, Y, Z are the upper faces, I, J, K the lower ones, whatever G90 or G91 says. A face that is left
+//! G22 X Y Z I J K: X, Y, Z are the upper faces, I, J, K the lower ones (or two corners in any order, by the control's
+//! table), whatever G90 or G91 says. A face that is left
 //! out keeps its place; G22 without words turns the stored box on again, G23 turns it off and keeps it. The machine
 //! checks its moves: here the box is only read.
 
@@ -57,7 +58,7 @@ impl Reading<'_> {
                 return Err(self.group_alarm(Condition::StrokeBoxIncomplete, Some(group)).on_axis(axis));
             }
             let (low, high) = (stroke.low[index], stroke.high[index]);
-            if high <= low {
+            if high <= low && !self.control().functions.any_corners {
                 let letter = if self.words.has(upper) { upper } else { lower };
                 let alarm = self.words.alarm(Condition::StrokeBoxOrder, letter);
                 return Err(alarm.with([high / 1e6, low / 1e6, 0.0]).on_axis(axis));
@@ -73,7 +74,8 @@ impl Reading<'_> {
         let (mut low, mut high): (Point, Point) = ([0.0; AXES], [0.0; AXES]);
         for (index, (letter, _)) in FACES.into_iter().enumerate() {
             if let Some(axis) = self.setting.facts.axis(letter) {
-                (low[axis], high[axis]) = (stroke.low[index] / 1e6, stroke.high[index] / 1e6);
+                let (one, other) = (stroke.low[index] / 1e6, stroke.high[index] / 1e6);
+                (low[axis], high[axis]) = (one.min(other), one.max(other));
             }
         }
         let outside = self

@@ -2,7 +2,7 @@
 //! together.
 
 use base::{Alarm, AxisSet, Condition, Point};
-use dialect::{PositionOffsetAbsolute, ReferenceVia};
+use dialect::{LengthWithoutZ, PositionOffsetAbsolute, ReferenceVia};
 
 use crate::block::Reading;
 use crate::cycle::pattern::Places;
@@ -85,8 +85,10 @@ impl Reading<'_> {
     pub fn targets(&mut self) -> Result<(Point, AxisSet), Alarm> {
         let named = self.axes_named()?;
         let (mut to, mut moved) = self.targets_of(named)?;
+        let at_once = self.setting.fitting.policies.length_without_z == LengthWithoutZ::AtOnce;
         let changes = self.words.has(b'H') || self.groups_written & (1 << self.control().roles.length) != 0;
         if self.length_change != 0.0
+            && at_once
             && (changes || !named.is_empty())
             && let Some(axis) = self.setting.length_axis
             && !moved.has(axis)

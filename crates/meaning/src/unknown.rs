@@ -73,6 +73,8 @@ impl Unknown {
             Condition::CircleTooSmall => self.word(b'D') || self.group(roles.units) || self.memory,
             Condition::OffsetRange => any(&[roles.units, roles.distance]) || self.memory,
             Condition::StoredFeedMissing => self.group(roles.feed_mode),
+            // Whichever code in force the refusal rests on.
+            Condition::StateForbids => self.groups != 0,
             Condition::ValueOutOfRange => self.group(roles.units),
             Condition::TravelExceeded => {
                 axis.is_some_and(|axis| self.axes.has(usize::from(axis)))

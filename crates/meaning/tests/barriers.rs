@@ -18,7 +18,8 @@ fn interpreter() -> Interpreter {
         codes: CodeRules { digits: [2, 4, 2, 3], m_after_motion: vec![5, 6, 9], b_after_motion: false },
     };
     let variables = Variables::new(&control.user_macro, control.macro_levels);
-    let memory = Memory { lengths: OffsetTable::new(99), radii: None, variables, work: [[0.0; 8]; 6] };
+    let memory =
+        Memory { lengths: OffsetTable::new(99), radii: None, variables, work: [[0.0; 8]; 6], external: [0.0; 8] };
     let fitting = Fitting::stock(&control);
     let mut interpreter = Interpreter::new(control, fitting, facts, memory, &[0.0; 8], [0.0; 8]);
     interpreter.select(SourceId(0), "TEST");

@@ -191,8 +191,19 @@ impl<'c> Tracer<'c> {
                 }
             }
             SetValue::Offset { number, value } => {
-                line.text("what", &format!("offset {number}"));
+                let column = if self.control.common_offsets { "" } else { "H" };
+                line.text("what", &format!("offset {column}{number}"));
                 line.number("value", *value);
+            }
+            SetValue::Radius { number, value } => {
+                line.text("what", &format!("offset D{number}"));
+                line.number("value", *value);
+            }
+            SetValue::Shift { code, axes, shift } => {
+                let what = code
+                    .map_or_else(|| "work external".to_owned(), |row| format!("shift {}", self.control.g_name(row)));
+                line.text("what", &what);
+                self.axes_object("value", shift, *axes, line);
             }
             SetValue::WorkOrigin { system, axes, origin } => {
                 line.text("what", &format!("work {}", self.control.g_name(*system)));

@@ -119,7 +119,7 @@ impl Configuration {
         let variables = Variables::new(&control.user_macro, control.macro_levels);
         let radii = (!control.common_offsets).then(|| OffsetTable::new(control.highest_offset));
         let mut configuration = Configuration {
-            memory: Memory { lengths, radii, variables, work: [[0.0; AXES]; 6] },
+            memory: Memory { lengths, radii, variables, work: [[0.0; AXES]; 6], external: [0.0; AXES] },
             fitting,
             machine,
             base_origin: [0.0; AXES],
@@ -300,6 +300,7 @@ impl Configuration {
                     origin[axis] = counts;
                 }
             }
+            memory::WorkSystem::External => self.memory.external[axis] = counts,
             memory::WorkSystem::Base => self.base_origin[axis] = counts,
         }
         Ok(())

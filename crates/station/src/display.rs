@@ -206,6 +206,7 @@ fn work<L: Library>(session: &Session<L>, system: &str) -> Result<Value, String>
     let found = memory::work_system(interpreter.control(), memory, system).map_err(|error| error.0)?;
     let origin = match found {
         WorkSystem::Stored(index) => memory.work.get(index).copied().unwrap_or([0.0; AXES]),
+        WorkSystem::External => memory.external,
         WorkSystem::Base => interpreter.executing_state().base_origin,
     };
     Ok(axes(session, &origin.map(|counts| counts / 1e6)))

@@ -55,6 +55,9 @@ pub(crate) fn read_named_offset(control: &Control, memory: &Memory, column: Offs
     counts.map(|counts| counts / 1e6)
 }
 
+/// The name of the origin that counts in every system.
+const EXTERNAL: &str = "external";
+
 /// A work system, by where its origin is kept.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum WorkSystem {
@@ -62,6 +65,8 @@ pub(crate) enum WorkSystem {
     Stored(usize),
     /// The base system, which a program sets.
     Base,
+    /// The origin that counts in every system.
+    External,
 }
 
 /// The work system of this name.
@@ -75,6 +80,7 @@ pub(crate) fn work_system(control: &Control, memory: &Memory, name: &str) -> Res
                 None => Err(wrong(format!("{name} is no work system"))),
             }
         }
+        None if name == EXTERNAL && control.functions.work.external => Ok(WorkSystem::External),
         Some((row, _)) if Some(row as u8) == control.base_system => Ok(WorkSystem::Base),
         _ => Err(wrong(format!("{name} is no work system of the {}", control.title))),
     }

@@ -83,9 +83,22 @@ fn code_number(row: &mut Table, key: &'static str, seen: &mut Vec<u16>) -> u16 {
 
 pub(super) fn g_codes(root: &mut Table, groups: &[u8], options: &[OptionRow]) -> Vec<GCode> {
     let mut seen = Vec::new();
-    let rows = root.tables("code", |row| g_code(row, groups, options, &mut seen));
+    let mut forbidding = Vec::new();
+    let mut rows = root.tables("code", |row| {
+        let place = row.place_of("not_under").unwrap_or_else(|| row.range());
+        forbidding.push((place, row.strings("not_under").unwrap_or_default()));
+        g_code(row, groups, options, &mut seen)
+    });
     if rows.len() >= usize::from(crate::control::NO_CODE) {
         root.error_here("more than 254 G codes");
+    }
+    for (index, (place, names)) in forbidding.into_iter().enumerate() {
+        for name in names {
+            match row_of_name(&rows, &name).filter(|&other| rows[usize::from(other)].group.is_some()) {
+                Some(other) => rows[index].not_under.push(other),
+                None => root.error(place.clone(), format!("not_under: {name} is no modal code of this control")),
+            }
+        }
     }
     rows
 }
@@ -148,6 +161,7 @@ fn g_code(row: &mut Table, groups: &[u8], options: &[OptionRow], seen: &mut Vec<
         takes: row.choice("takes", TAKES).unwrap_or_default(),
         meaning: row.choice("meaning", Meaning::TABLE).unwrap_or(Meaning::Dwell),
         number: row.integer("number").and_then(|n| u8::try_from(n).ok()).unwrap_or(0),
+        not_under: Vec::new(),
         text: row.required_string("text"),
         origin: origin(row),
     }

@@ -22,6 +22,8 @@ pub(super) struct StationDraft {
     pub keys: Vec<(String, Key)>,
     pub end_resets: bool,
     pub states: Vec<StateRow>,
+    /// For each state the name of the parameter that keeps it.
+    pub keeping: Vec<Option<String>>,
 }
 
 pub(super) fn station(root: &mut Table) -> StationDraft {
@@ -44,7 +46,11 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
     let keys = root.table("keys", |t| t.rest().iter().filter_map(key).collect());
     let end_resets =
         root.table("program_end", |t| t.choice("resets", &[("always", true), ("EOP", false)]).unwrap_or(false));
-    let mut seen = Vec::new();
+    let (mut seen, mut keeping) = (Vec::new(), Vec::new());
+    let states = root.tables("state", |row| {
+        keeping.push(row.string("kept_by_parameter"));
+        state(row, &mut seen)
+    });
     StationDraft {
         keys: keys.unwrap_or_default(),
         end_resets: end_resets.unwrap_or(false),
@@ -56,7 +62,8 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
         more,
         protection,
         protected,
-        states: root.tables("state", |row| state(row, &mut seen)),
+        states,
+        keeping,
     }
 }
 
@@ -137,6 +144,7 @@ fn state(row: &mut Table, seen: &mut Vec<StateItem>) -> StateRow {
             row.choice("program_end", FATES).unwrap_or(reset),
         ],
         kept_by: row.string("kept_by"),
+        kept_by_parameter: None,
         origin: origin(row),
     }
 }
@@ -157,6 +165,10 @@ pub(super) fn resolve(
     draft.states.iter().filter_map(|row| row.kept_by.as_ref()).try_for_each(|name| option(name).map(|_| ()))?;
     let [jog_speed, dry_run_rapid] = &draft.parameters;
     let found = |name: &Option<String>| name.as_ref().map(|name| parameter_index(files, parameters, name)).transpose();
+    let mut states = draft.states;
+    for (state, name) in states.iter_mut().zip(&draft.keeping) {
+        state.kept_by_parameter = found(name)?;
+    }
     Ok(StationTable {
         jog_speed: parameter_index(files, parameters, jog_speed)?,
         dry_run_rapid: parameter_index(files, parameters, dry_run_rapid)?,
@@ -169,6 +181,6 @@ pub(super) fn resolve(
         protected: draft.protected,
         modes: draft.modes,
         overrides: draft.overrides,
-        states: draft.states,
+        states,
     })
 }

@@ -1,7 +1,7 @@
 //! Cycle blocks and hole patterns: from words to [`Holes`].
 
 use base::{AXES, Alarm, Condition, Point};
-use dialect::{CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, G87Return, Meaning};
+use dialect::{CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleStep, CycleSteps, G87Return, Meaning};
 
 use super::pattern::{Places, sin_cos_deg};
 use super::{CycleData, Holes, Spindle, needs_peck, needs_shift, store, store_shift};
@@ -53,13 +53,20 @@ impl Reading<'_> {
         let initial = self.initial_level(cycle)?;
         store(&self.words, control, units, absolute, initial, &mut self.next.cycle)?;
         self.store_dwell()?;
-        store_shift(&self.words, control, units, &mut self.next.cycle)?;
+        let table = &control.functions.cycle;
+        if table.shifts_by_ij {
+            store_shift(&self.words, control, units, &mut self.next.cycle)?;
+        }
         let levels = letter_bit(b'R') | letter_bit(LENGTH_AXIS);
         if !self.words.has_any(self.setting.axis_letters | levels) {
             return Ok(());
         }
         let drilling = self.drilling_axis()?;
-        let count = if !self.calls_or_returns { self.words.count(control, b'L')?.unwrap_or(1) } else { 1 };
+        let repeats = table.repeats.iter().copied().find(|&letter| self.words.has(letter));
+        let count = match repeats.filter(|_| !self.calls_or_returns) {
+            Some(letter) => self.words.count(control, letter)?.unwrap_or(1),
+            None => 1,
+        };
         if count == 0 && self.setting.fitting.policies.cycle_l0_moves == CycleL0Moves::No {
             return Ok(());
         }
@@ -157,6 +164,7 @@ impl Reading<'_> {
         }
         let mut holes = Holes {
             cycle,
+            steps: cycle.map_or_else(Default::default, |cycle| self.control().functions.cycle.steps_of(cycle)),
             places,
             approach,
             axis: drilling as u8,
@@ -168,6 +176,7 @@ impl Reading<'_> {
             dwell: 0.0,
             shift: [0.0; 2],
             shift_axes: [drilling as u8; 2],
+            start: None,
             restart: None,
             by_hand: false,
             feed: Feed { mm_per_min: 0.0, exact_stop: false, tapping: false, per_revolution: false },
@@ -222,11 +231,35 @@ impl Reading<'_> {
             Meaning::BoreManualOut => policies.g87_return == G87Return::Manual,
             _ => false,
         };
-        match cycle {
-            Meaning::Tap => self.next.spindle_direction = Some(Spindle::Forward),
-            Meaning::LeftTap => self.next.spindle_direction = Some(Spindle::Reverse),
-            _ => {}
+        holes.start = self.spindle_through(&holes.steps);
+    }
+
+    /// How the spindle turns once the steps are done; which way they start it, if they want it and it does not turn so.
+    fn spindle_through(&mut self, steps: &CycleSteps) -> Option<Spindle> {
+        let mut start = None;
+        for &step in steps {
+            let (now, wanted) = match step {
+                CycleStep::StartForward => (Spindle::Forward, true),
+                CycleStep::StartReverse => (Spindle::Reverse, true),
+                CycleStep::Forward => (Spindle::Forward, false),
+                CycleStep::Reverse => (Spindle::Reverse, false),
+                CycleStep::Stop => (Spindle::Stop, false),
+                CycleStep::Orient => (Spindle::Orient, false),
+                CycleStep::Restart => {
+                    self.next.spindle_stopped = false;
+                    continue;
+                }
+                _ => continue,
+            };
+            if wanted && (self.next.spindle_direction != Some(now) || self.next.spindle_stopped) {
+                start = Some(now);
+            }
+            self.next.spindle_stopped = !now.turns();
+            if now.turns() {
+                self.next.spindle_direction = Some(now);
+            }
         }
+        start
     }
 
     /// The shift off the wall: I and J if they are stored, else Q in the direction that a parameter sets.
@@ -243,7 +276,9 @@ impl Reading<'_> {
             None if direction & SHIFTS_ALONG_Y != 0 => [0.0, by_q],
             None => [by_q, 0.0],
         };
-        if holes.shift == [0.0; 2] { Err(self.q_alarm(Condition::CycleShiftMissing)) } else { Ok(()) }
+        // Q has no sign: the parameter says which way.
+        let wrong = holes.shift == [0.0; 2] || data.peck < 0.0 && data.shift.is_none();
+        if wrong { Err(self.q_alarm(Condition::CycleShiftMissing)) } else { Ok(()) }
     }
 
     /// An alarm at Q, or at the cycle's code if there is none.

@@ -50,7 +50,8 @@ impl Reader {
                 None => unknown.words |= letter_bit(word.letter),
             }
         }
-        unknown.memory |= self.has_code(Meaning::WriteData);
+        let shifts = self.setting.control.functions.work.shifts_all && self.has_code(Meaning::SetCoordinates);
+        unknown.memory |= shifts || self.has_code(Meaning::WriteData) || self.has_code(Meaning::LocalCoordinates);
         if self.has_code(Meaning::SetCoordinates) {
             let named = self.block.words.iter().filter_map(|word| self.setting.facts.axis(word.letter));
             named.for_each(|axis| unknown.origins.add(axis));

@@ -242,6 +242,13 @@ impl Reader {
                 return Ok(SetValue::Offset { number: offset, value: mm });
             }
             Written::Origin(system, axis, counts) => match system.checked_sub(1) {
+                None if self.setting.control.functions.work.external => {
+                    let mut origin = self.setting.memory.external;
+                    origin[axis] = counts;
+                    self.state.memory_mark ^= self.setting.memory.write(DataWrite::External { origin });
+                    let shift = self.setting.to_mm(&origin);
+                    return Ok(SetValue::Shift { code: None, axes: AxisSet::only(axis), shift });
+                }
                 None => self.state.common_shift[axis] = counts,
                 Some(index) => {
                     let system = usize::from(index);

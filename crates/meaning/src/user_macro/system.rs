@@ -130,6 +130,7 @@ impl Source<'_> {
 
     fn origin(&self, system: u8, axis: usize) -> f64 {
         match system.checked_sub(1) {
+            None if self.setting.control.functions.work.external => self.setting.memory.external[axis],
             None => self.state.common_shift[axis],
             Some(index) => self.setting.memory.work.get(usize::from(index)).map_or(0.0, |origin| origin[axis]),
         }
@@ -169,6 +170,10 @@ impl Source<'_> {
                 let mut machine = state.machine;
                 for axis in 0..AXES {
                     machine[axis] -= state.displacement[axis];
+                }
+                // What a changed length offset has not moved yet counts as moved.
+                if let Some(axis) = self.setting.length_axis {
+                    machine[axis] += state.length_due;
                 }
                 self.setting.last_programmed(state, &machine)[axis] / unit
             }

@@ -109,13 +109,15 @@ impl List<'_> {
         let State {
             // Shown already, or nothing that a block says of itself.
             groups: _, feed: _, spindle: _, tool: _, index: _, h: _, d: _, machine: _, length: _, length_due: _,
-            sequence: _, memory_mark: _,
+            sequence: _, memory_mark: _, spindle_stopped: _,
             base_origin, common_shift, universal_zero, displacement, cycle, miscellaneous, skip, block_control,
             feed_control, reference, interrupt, buffering, corner, stroke, transform, polar,
-            spindle_direction, unknown,
+            spindle_direction, unknown, local, surface_speed,
         } = state;
         self.counts("base origin", base_origin, unknown.origins);
         self.counts("shift of all systems", common_shift, AxisSet::NONE);
+        self.counts("local origin", local, AxisSet::NONE);
+        self.add("surface speed", format!("{} m/min", plain(surface_speed / 1e9, 3)));
         self.counts("zero of the UNIVERSAL display", universal_zero, AxisSet::NONE);
         self.counts("displacement", displacement, AxisSet::NONE);
         let level = |counts: Option<f64>| or_none(counts.map(|counts| coordinate(counts / 1e6)));

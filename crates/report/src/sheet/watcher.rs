@@ -288,7 +288,9 @@ impl Watcher {
             SetValue::Variable { .. } => {
                 self.option_names.insert("user-macro");
             }
-            SetValue::WorkOrigin { axes, .. } if now.one_shot == Some(Meaning::SetCoordinates) => {
+            SetValue::WorkOrigin { axes, .. } | SetValue::Shift { axes, .. }
+                if now.one_shot == Some(Meaning::SetCoordinates) =>
+            {
                 let position = *session.position();
                 let facts = self.configuration.machine.axes.iter().enumerate().take(AXES);
                 let named = facts.filter(|(index, _)| axes.has(*index));

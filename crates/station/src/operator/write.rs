@@ -69,6 +69,7 @@ impl<L: Library> Operator<L> {
                     origin[axis] = counts;
                 }
             }
+            WorkSystem::External => interpreter.memory_mut().external[axis] = counts,
             WorkSystem::Base if running => {
                 return Err(format!("{system} is the program's own while one runs or is stopped"));
             }
