@@ -1,8 +1,12 @@
 //! The command line: every command, every option, its help and an example.
 
+mod diff;
+
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+
+pub use diff::{DiffArguments, DiffFormat};
 
 /// Executes part programs exactly as the machining-centre controls they were written for would.
 #[derive(Parser, Debug)]
@@ -60,6 +64,11 @@ pub enum Command {
         after_help = "Examples:\n  cyclestart fmt programs/ --check\n  cyclestart fmt part.nc --number 10,10 -o part-numbered.nc"
     )]
     Fmt(FmtArguments),
+    /// Say what changes at the machine between two programs, or between two controls
+    #[command(
+        after_help = "Axes, codes, dwells, stops and alarms are compared, not times. Exit codes: 0 the same at the machine; 1 different; 2 the call is wrong.\n\nExamples:\n  cyclestart diff old.nc new.nc --setup part.setup.toml\n  cyclestart diff part.nc --control-a yasnac-mx1 --control-b incon-m84 --setup-b m84.setup.toml"
+    )]
+    Diff(DiffArguments),
     /// List the controls, or print one control's tables
     #[command(after_help = "Example:\n  cyclestart controls yasnac-mx1")]
     Controls(ControlsArguments),

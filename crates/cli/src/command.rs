@@ -3,6 +3,7 @@
 pub mod check;
 pub mod controls;
 pub mod coverage;
+pub mod diff;
 pub mod explain;
 mod fix;
 pub mod fmt;

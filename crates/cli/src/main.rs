@@ -53,6 +53,7 @@ fn run(command: Command) -> Result<bool, Failure> {
         Command::Explain(arguments) => command::explain::explain(&arguments),
         Command::Sheet(arguments) => command::sheet::sheet(&arguments),
         Command::Fmt(arguments) => command::fmt::fmt(&arguments),
+        Command::Diff(arguments) => command::diff::diff(&arguments),
         Command::Controls(arguments) => command::controls::controls(&arguments),
     }
 }

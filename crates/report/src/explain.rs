@@ -23,7 +23,7 @@ use station::{Library, Session};
 use syntax::{Block, Cursor, read_block};
 
 pub use face::explanation_text;
-pub(crate) use happening::set_text;
+pub(crate) use happening::{happening, set_text};
 pub use json::explanation_json;
 pub use policies::PolicyLine;
 pub(crate) use quantity::plain;

@@ -4,7 +4,6 @@
 //! old ones. A block that cannot be read stays as it is; so does everything behind the tape's end.
 
 mod numbering;
-mod proof;
 
 use std::collections::BTreeSet;
 
@@ -13,7 +12,6 @@ use syntax::{Block, Cursor, Item, Outcome, Value, lay_out, read_block, take_apar
 use tape::{Reader, Text};
 
 pub use numbering::Numbering;
-pub use proof::{Difference, same_run};
 
 /// What is wished of a text.
 #[derive(Clone, Debug, Default)]

@@ -12,6 +12,7 @@ mod json;
 mod paint;
 mod remarks;
 mod sheet;
+mod side_by_side;
 mod summary;
 mod trace;
 
@@ -20,9 +21,12 @@ pub use coverage::{CoveredRow, CoveringCase, coverage, rows_of};
 pub use excerpt::Excerpt;
 pub use explain::{Explanation, Wanted, Watch, Watched, explain, explanation_json, explanation_text};
 pub use face::{Format, Rules, begin, end, render, render_with_labels, separator};
-pub use house_style::{Difference, Formatted, HouseStyle, Numbering, house_style, same_run};
+pub use house_style::{Formatted, HouseStyle, Numbering, house_style};
 pub use json::{JsonLine, push_number};
 pub use paint::Paint;
 pub use sheet::{Sheet, ToolSheet, sheet_html, sheet_json, sheet_text};
+pub use side_by_side::{
+    Comparison, Deviation, Difference, Limits, compare, comparison_json, comparison_text, same_run,
+};
 pub use summary::Summary;
 pub use trace::Tracer;

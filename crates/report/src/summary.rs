@@ -23,23 +23,23 @@ pub struct Summary {
     control: String,
     machine: String,
     program: String,
-    axes: Vec<char>,
+    pub(crate) axes: Vec<char>,
     end: Option<EndKind>,
-    cutting: f64,
-    rapid: f64,
-    dwell: f64,
-    waiting: f64,
-    cutting_mm: f64,
-    rapid_mm: f64,
+    pub(crate) cutting: f64,
+    pub(crate) rapid: f64,
+    pub(crate) dwell: f64,
+    pub(crate) waiting: f64,
+    pub(crate) cutting_mm: f64,
+    pub(crate) rapid_mm: f64,
     low: Point,
     high: Point,
     moved: bool,
     tool: u32,
     tools: BTreeMap<u32, ToolTime>,
     blocks: u64,
-    moves: u64,
+    pub(crate) moves: u64,
     alarms: Vec<String>,
-    alarm_count: u64,
+    pub(crate) alarm_count: u64,
     last_time: f64,
 }
 
@@ -144,7 +144,27 @@ impl Summary {
         }
     }
 
-    fn total(&self) -> f64 {
+    /// The name of the main program.
+    pub(crate) fn program(&self) -> &str {
+        &self.program
+    }
+
+    /// How it ended, in a word.
+    pub(crate) fn end_word(&self) -> &'static str {
+        match (self.end, self.alarm_count) {
+            (Some(kind), _) => end_name(kind),
+            (None, 0) => "-",
+            (None, _) => "alarm",
+        }
+    }
+
+    /// The travel along an axis: lowest and highest.
+    pub(crate) fn extent(&self, letter: char) -> Option<[f64; 2]> {
+        let axis = self.axes.iter().position(|&axis| axis == letter)?;
+        self.moved.then(|| [self.low[axis], self.high[axis]])
+    }
+
+    pub(crate) fn total(&self) -> f64 {
         self.cutting + self.rapid + self.dwell + self.waiting
     }
 
@@ -240,7 +260,8 @@ impl Summary {
     }
 }
 
-fn short(value: f64) -> String {
+/// A length with at most three decimals.
+pub(crate) fn short(value: f64) -> String {
     let mut out = Vec::new();
     crate::push_number(&mut out, (value * 1000.0).round() / 1000.0);
     String::from_utf8_lossy(&out).into_owned()

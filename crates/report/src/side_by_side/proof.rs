@@ -2,7 +2,9 @@
 
 use base::Place;
 use machine::EventKind;
-use station::{Library, LibraryError, Session, Step};
+use station::{Library, LibraryError, Session};
+
+use super::next_event;
 
 /// Where two runs part.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -28,20 +30,15 @@ pub fn same_run<L: Library>(
     for _ in 0..most_events {
         let here = |session: &Session<L>| session.place();
         let difference = Difference { first: here(first), second: here(second) };
-        match (first.next(), second.next()) {
-            (Step::Event(a), Step::Event(b)) => {
+        match (next_event(first)?, next_event(second)?) {
+            (Some(a), Some(b)) => {
                 let (one, other) = (first.interpreter(), second.interpreter());
                 let same_program = one.program_name(a.place.program) == other.program_name(b.place.program);
                 if a.time != b.time || !same_program || !same_kind(&a.kind, &b.kind) {
                     return Ok(Some(Difference { first: a.place, second: b.place }));
                 }
             }
-            (Step::Stopped, Step::Stopped) => {
-                first.start();
-                second.start();
-            }
-            (Step::Idle, Step::Idle) => return Ok(None),
-            (Step::Failed(error), _) | (_, Step::Failed(error)) => return Err(error),
+            (None, None) => return Ok(None),
             _ => return Ok(Some(difference)),
         }
     }
