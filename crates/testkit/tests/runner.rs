@@ -195,6 +195,26 @@ fn files_that_a_command_writes_are_compared_and_leave_the_folder_alone() {
 }
 
 #[test]
+fn files_that_a_command_writes_over_are_compared_with_what_they_become() {
+    let case = format!("{CASE}rewrites = [\"in.nc\"]\n");
+    let files = [("case.toml", case.as_str()), ("out.trace", ""), ("in.nc", "before\n"), ("in.nc.after", "after\n")];
+    let judged = |text: Option<&'static str>| {
+        let folder = folder(&files);
+        let program = |call: &Call| {
+            if let Some(text) = text {
+                fs::write(call.folder.join("in.nc"), text)?;
+            }
+            Ok(Outcome { exit: Some(0), ..Outcome::default() })
+        };
+        let verdict = judge(folder.path(), Mode::Compare, &program);
+        assert_eq!(fs::read_to_string(folder.path().join("in.nc")).expect("a file"), "before\n");
+        verdict
+    };
+    assert_eq!(judged(Some("after\n")), Ok(()));
+    assert!(judged(None).expect_err("nothing was written").contains("+ before"));
+}
+
+#[test]
 fn rewriting_makes_the_expectation_and_never_hides_a_wrong_exit() {
     let case = format!("{CASE}exit = 1\n");
     let folder = folder(&[("case.toml", &case), ("err.txt", "old\n")]);
