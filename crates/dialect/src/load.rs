@@ -15,7 +15,7 @@ use data::{DataError, Document, Table};
 use syntax::{BlockDelete, Colon, Grammar, Grouping, LowerCase, Percent, Semicolon};
 
 use crate::combination::Combination;
-use crate::control::{Control, FeedSettings, Group, GroupRule, MOST_GROUPS, Roles, TapeRules, Tolerances};
+use crate::control::{Control, FeedSettings, FileNames, Group, GroupRule, MOST_GROUPS, Roles, TapeRules, Tolerances};
 use crate::meaning::Meaning;
 use crate::member::Member;
 use crate::row::{Certainty, GCode, Origin, ParameterRow};
@@ -94,6 +94,7 @@ struct Head {
     summary: String,
     stock_machine: String,
     grammar: Grammar,
+    files: Option<FileNames>,
     last_word_wins: bool,
     increments: [i64; 3],
     whole_units: Option<String>,
@@ -138,6 +139,7 @@ fn grammar(root: &mut Table) -> (Grammar, bool) {
             block_delete: t
                 .choice("block_delete", &[("anywhere", BlockDelete::Anywhere), ("head", BlockDelete::Head)])
                 .unwrap_or_default(),
+            named_call: t.integer("named_call").and_then(|n| u32::try_from(n).ok()),
             block_length: t.integer("block_length").and_then(|n| u32::try_from(n).ok()).unwrap_or(u32::MAX),
         };
         let last = t.choice("repeated_word", &[("last-wins", true), ("refuse", false)]).unwrap_or(true);
@@ -204,6 +206,7 @@ fn head(root: &mut Table, member: &str) -> Head {
         summary: root.required_string("summary"),
         stock_machine: root.required_string("stock_machine"),
         grammar,
+        files: root.table("files", |t| FileNames { ending: t.required_string("ending"), large: t.string("large") }),
         last_word_wins,
         increments,
         whole_units,
@@ -325,6 +328,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         combination: head.combination,
         whole_units,
         grammar: head.grammar,
+        files: head.files,
         last_word_wins: head.last_word_wins,
         increments: head.increments,
         read_ahead: head.read_ahead,
