@@ -199,12 +199,14 @@ impl List<'_> {
     /// One factor, or that of each axis where they differ.
     fn factors(&mut self, transform: &Transform) {
         let first = transform.factor[0];
-        let scaled = || self.axes.iter().zip(transform.factor).enumerate().filter(|(axis, _)| transform.scaled.has(*axis));
+        let scaled =
+            || self.axes.iter().zip(transform.factor).enumerate().filter(|(axis, _)| transform.scaled.has(*axis));
         let value = if scaled().all(|(_, (_, factor))| factor == first) {
             plain(first, 3)
         } else {
-            let each: Vec<String> =
-                scaled().map(|(_, (axis, factor))| format!("{} {}", char::from(axis.letter), plain(factor, 4))).collect();
+            let each: Vec<String> = scaled()
+                .map(|(_, (axis, factor))| format!("{} {}", char::from(axis.letter), plain(factor, 4)))
+                .collect();
             each.join(", ")
         };
         self.add("scaling: factor", value);
