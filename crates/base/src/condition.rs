@@ -217,6 +217,16 @@ conditions! {
     CallTargetMissing = "call-target-missing",
     /// The called program is nowhere to be found. Values: program number.
     ProgramNotFound = "program-not-found",
+    /// There is no file of the called program's name.
+    FileNotFound = "file-not-found",
+    /// A program's name has a character that no name has.
+    ProgramName = "program-name",
+    /// A call writes the ending of a program's file where none may be written.
+    ProgramEnding = "program-ending",
+    /// A call by name shares its block with another word.
+    CallNotAlone = "call-not-alone",
+    /// A program called by its full file name calls another.
+    CallFromLarge = "call-from-large",
     /// The sequence number to go to does not stand in the program. Values: number.
     SequenceNotFound = "sequence-not-found",
     /// Subprograms call one another too deep. Values: levels allowed.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use base::SourceId;
 use meaning::WINDOW;
-use station::{Library, LibraryError, Shelf};
+use station::{Library, LibraryError, Shelf, Wanted};
 use tape::{Codes, Format, IGNORED, UNREADABLE, recognise};
 
 use crate::failure::Failure;
@@ -33,8 +33,9 @@ struct Source {
 pub struct Texts {
     sources: Vec<Source>,
     folders: Vec<PathBuf>,
-    /// Programs in the control's memory, by their numbers.
+    /// Programs in the control's memory, by their numbers and by their files' names in capitals.
     memory: BTreeMap<u32, SourceId>,
+    memory_files: BTreeMap<String, SourceId>,
     /// The codes of the control's tapes, if it reads any.
     codes: Option<Codes>,
     /// Where files to load are looked for that are not found from here.
@@ -44,7 +45,8 @@ pub struct Texts {
 impl Texts {
     /// No texts yet; subprograms are looked up in these folders, in their order.
     pub fn new(folders: Vec<PathBuf>) -> Texts {
-        Texts { sources: Vec::new(), folders, memory: BTreeMap::new(), codes: None, beside: None }
+        let (memory, memory_files) = Default::default();
+        Texts { sources: Vec::new(), folders, memory, memory_files, codes: None, beside: None }
     }
 
     /// Images of tapes are shown in these codes.
@@ -217,12 +219,23 @@ impl Library for Texts {
         source.read(offset, len, bytes).map_err(|error| LibraryError(format!("cannot read {}: {error}", source.name)))
     }
 
-    fn find_program(&mut self, number: u32) -> Result<Option<SourceId>, LibraryError> {
-        if let Some(&source) = self.memory.get(&number) {
+    fn find_program(&mut self, wanted: Wanted) -> Result<Option<SourceId>, LibraryError> {
+        let known = match wanted {
+            Wanted::Number(number, ending) => {
+                let file = || self.memory_files.get(&format!("O{number}.{}", ending.to_uppercase()));
+                self.memory.get(&number).or_else(file)
+            }
+            Wanted::File(name) => self.memory_files.get(name),
+        };
+        if let Some(&source) = known {
             return Ok(Some(source));
         }
         for folder in self.folders.clone() {
-            let Some(path) = find_file(&folder, number) else { continue };
+            let path = match wanted {
+                Wanted::Number(number, ending) => find_file(&folder, number, ending),
+                Wanted::File(name) => find_name(&folder, name),
+            };
+            let Some(path) = path else { continue };
             let name = path.to_string_lossy().into_owned();
             if let Some(index) = self.sources.iter().position(|source| source.name == name) {
                 return Ok(Some(SourceId(index as u32)));
@@ -233,6 +246,10 @@ impl Library for Texts {
             };
         }
         Ok(None)
+    }
+
+    fn file_name(&self, source: SourceId) -> Option<String> {
+        self.sources.get(source.0 as usize).map(|source| Texts::program_name(&source.name))
     }
 }
 
@@ -248,8 +265,11 @@ impl Shelf for Texts {
         Ok((source, Texts::program_name(file)))
     }
 
-    fn keep_in_memory(&mut self, number: u32, source: SourceId) {
-        self.memory.insert(number, source);
+    fn keep_in_memory(&mut self, program: Wanted, source: SourceId) {
+        match program {
+            Wanted::Number(number, _) => drop(self.memory.insert(number, source)),
+            Wanted::File(name) => drop(self.memory_files.insert(name.to_owned(), source)),
+        }
     }
 }
 
@@ -284,8 +304,17 @@ pub fn folder_of(file: &str) -> PathBuf {
     folder.map_or_else(|| PathBuf::from("."), Path::to_path_buf)
 }
 
-/// The file of a program number in a folder: `O4321` with any of the endings, in any case of letters.
-fn find_file(folder: &Path, number: u32) -> Option<PathBuf> {
+/// The file of this name in a folder, whatever the case of its letters; the very name first.
+fn find_name(folder: &Path, wanted: &str) -> Option<PathBuf> {
+    let is_it = |name: &str| name.eq_ignore_ascii_case(wanted);
+    let paths = fs::read_dir(folder).ok()?.flatten().map(|entry| entry.path());
+    let named = |path: &PathBuf| path.file_name().and_then(|name| name.to_str()).is_some_and(is_it);
+    // Capitals stand before small letters: of two files that differ in case alone the one in capitals is taken.
+    paths.filter(|path| named(path) && path.is_file()).min()
+}
+
+/// The file of a program number in a folder: `O4321` with any of the endings, this one first, in any case of letters.
+fn find_file(folder: &Path, number: u32, first: &str) -> Option<PathBuf> {
     let mut found: Vec<(usize, PathBuf)> = Vec::new();
     for entry in fs::read_dir(folder).ok()?.flatten() {
         let path = entry.path();
@@ -297,6 +326,7 @@ fn find_file(folder: &Path, number: u32) -> Option<PathBuf> {
         if let (true, Some(rank)) = (is_number, ENDINGS.iter().position(|known| *known == ending))
             && path.is_file()
         {
+            let rank = if ending.eq_ignore_ascii_case(first) { 0 } else { rank + 1 };
             found.push((rank, path));
         }
     }

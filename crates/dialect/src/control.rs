@@ -55,6 +55,15 @@ pub struct Group {
     pub origin: Origin,
 }
 
+/// The endings of files that are programs.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct FileNames {
+    /// Of every program; a call does not write it.
+    pub ending: String,
+    /// Of large programs, which a call writes and which call no others.
+    pub large: Option<String>,
+}
+
 /// Which group decides what: indices of the groups, found by what their codes mean.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Roles {
@@ -150,6 +159,8 @@ pub struct Control {
     pub combination: Option<Combination>,
     /// How its texts are read.
     pub grammar: Grammar,
+    /// The endings of files that are programs, where a program is a file.
+    pub files: Option<FileNames>,
     /// True if the last of several words of one address counts; false if that is refused.
     pub last_word_wins: bool,
     /// Least input increments: nanometres (metric), nanometres (inch), microdegrees.

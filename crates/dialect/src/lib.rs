@@ -30,7 +30,7 @@ pub use alarm::AlarmRow;
 pub use builtin::{builtin_controls, builtin_files};
 pub use combination::{Combination, Written, check_combination};
 pub use control::{
-    Control, FeedSettings, Group, GroupCodes, GroupRule, MOST_GROUPS, NO_CODE, Roles, TapeRules, Tolerances,
+    Control, FeedSettings, FileNames, Group, GroupCodes, GroupRule, MOST_GROUPS, NO_CODE, Roles, TapeRules, Tolerances,
 };
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use fix::{Fix, Refused, Rewritten};
@@ -40,11 +40,11 @@ pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};
 pub use member::AxisLetter;
 pub use occasion::{Fate, Occasion, StateItem, StateRow};
 pub use policy::{
-    ArcWithoutCentre, CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleWithMotion, DwellVariable,
-    FeedModeChange, G87Return, G92System, InchFeedInteger, LengthWithoutZ, M01OffOutput, MOver99, MdiCalls,
-    OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter,
+    ArcWithoutCentre, CallFromLarge, CallL0, CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleWithMotion,
+    DwellVariable, FeedModeChange, G87Return, G92System, InchFeedInteger, LengthWithoutZ, M01OffOutput, MOver99,
+    MdiCalls, OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter,
     ProgrammedPosition, ReferenceVia, ResetPointer, ScalingBoreLevels, ScalingCompany, ScalingNegativeRatio,
-    SkipWithoutSignal, StrokeCheck, UnitChangeOffsets,
+    SkipWithoutSignal, StrokeCheck, SubprogramTextEnd, UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Class, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,
@@ -67,6 +67,12 @@ mod tests {
             Ok(control) => control,
             Err(errors) => panic!("{}", errors.iter().map(|e| format!("{e}\n\n")).collect::<String>()),
         }
+    }
+
+    /// Every control that comes with the program.
+    fn builtin() -> Vec<Control> {
+        let files = builtin_controls().into_iter().filter_map(|name| builtin_files(&name));
+        files.filter_map(|files| load_control(&files).ok()).collect()
     }
 
     #[test]
@@ -108,9 +114,10 @@ mod tests {
 
     #[test]
     fn options_that_code_asks_for_are_in_the_tables() {
-        let control = yasnac();
+        let controls = builtin();
         for name in policy::ASKED {
-            assert!(control.options.iter().any(|row| row.name == *name), "{name}");
+            let mut options = controls.iter().flat_map(|control| &control.options);
+            assert!(options.any(|row| row.name == *name), "{name}");
         }
     }
 

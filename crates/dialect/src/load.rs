@@ -17,7 +17,7 @@ use data::{DataError, Document, Table};
 use syntax::Grammar;
 
 use crate::combination::Combination;
-use crate::control::{Control, FeedSettings, Group, GroupRule, MOST_GROUPS, Roles, TapeRules, Tolerances};
+use crate::control::{Control, FeedSettings, FileNames, Group, GroupRule, MOST_GROUPS, Roles, TapeRules, Tolerances};
 use crate::meaning::Meaning;
 use crate::member::Member;
 use crate::row::{Certainty, GCode, Origin, ParameterRow};
@@ -96,6 +96,7 @@ struct Head {
     summary: String,
     stock_machine: String,
     grammar: Grammar,
+    files: Option<FileNames>,
     last_word_wins: bool,
     increments: [i64; 3],
     whole_units: Option<String>,
@@ -166,6 +167,7 @@ fn head(root: &mut Table, member: &str) -> Head {
         summary: root.required_string("summary"),
         stock_machine: root.required_string("stock_machine"),
         grammar,
+        files: root.table("files", |t| FileNames { ending: t.required_string("ending"), large: t.string("large") }),
         last_word_wins,
         increments,
         whole_units,
@@ -289,6 +291,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         combination: head.combination,
         whole_units,
         grammar: head.grammar,
+        files: head.files,
         last_word_wins: head.last_word_wins,
         increments: head.increments,
         read_ahead: head.read_ahead,

@@ -216,6 +216,27 @@ policies! {
         /// They are taken.
         Allow = "allow",
     }
+    /// What a call with L0 does.
+    call_l0: CallL0 = "call-l0" {
+        /// It is refused.
+        Refuse = "refuse",
+        /// Nothing: the program is not run.
+        NotRun = "not-run",
+    }
+    /// What the end of a subprogram's text before its M99 is.
+    subprogram_text_end: SubprogramTextEnd = "subprogram-text-end" {
+        /// The end of the run.
+        End = "end",
+        /// The way back, as M99.
+        Return = "return",
+    }
+    /// What a call out of a large program is.
+    call_from_large: CallFromLarge = "call-from-large" {
+        /// Refused.
+        Refuse = "refuse",
+        /// Taken, as out of any other.
+        Allow = "allow",
+    }
     /// Whether F survives a change between feed per minute and per revolution.
     feed_mode_change: FeedModeChange = "feed-mode-change" {
         /// A new F must be programmed.
@@ -270,6 +291,10 @@ options! {
     b_function = "b-function",
     /// M90 and M91.
     program_interrupt = "program-interrupt",
+    /// M98 with P and the number of a program, where programs are called by name.
+    number_form_call = "number-form-call",
+    /// Calls of a part of the same program.
+    internal_call = "internal-call",
     /// User macros.
     user_macro = "user-macro",
     /// F0 is rapid, F1 to F9 call stored feeds.

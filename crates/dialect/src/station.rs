@@ -19,10 +19,12 @@ pub enum ModeKind {
 }
 
 /// What a key beside the usual buttons does.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Key {
     /// Stops the program and resets the control.
     Reset,
+    /// Turns to the mode of this name.
+    Mode(String),
 }
 
 /// One position of the mode switch.
@@ -63,6 +65,10 @@ pub struct StationTable {
     pub keys: Vec<(String, Key)>,
     /// A program's end always resets the control, whatever is wired.
     pub end_resets: bool,
+    /// M30 always goes back to the program's head, whatever is wired.
+    pub end_rewinds: bool,
+    /// Index of the parameter that says whether M02 does too: 0 = no, 1 = yes.
+    pub m02_rewinds: Option<usize>,
     /// What becomes of every state that is no modal group.
     pub states: Vec<StateRow>,
 }

@@ -57,6 +57,8 @@ pub struct UserMacro {
     pub brackets: usize,
     /// Loops that may stand inside one another; their numbers are 1 to this.
     pub loops: usize,
+    /// IF may be followed by THEN and an assignment.
+    pub then: bool,
     /// I J K groups that a call may have.
     pub triples: usize,
     /// The variables, lowest numbers first.

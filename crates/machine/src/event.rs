@@ -19,6 +19,8 @@ pub enum StopCause {
 pub enum ResetCause {
     /// The RESET key.
     Key,
+    /// The function key of this number, where it resets.
+    FunctionKey(u8),
     /// The end of the program, by the EOP input.
     ProgramEnd,
     /// Emergency stop.

@@ -11,6 +11,7 @@ use crate::command::Command;
 use crate::jump::{Calls, Found};
 use crate::operation::{RapidKind, Side};
 use crate::position_offset::PositionOffset;
+use crate::program::CallName;
 use crate::record::ReadAs;
 use crate::setting::Setting;
 use crate::state::State;
@@ -23,8 +24,8 @@ use crate::word::{Refusal, Words};
 pub(crate) enum Flow {
     /// With the next block.
     Next,
-    /// In a subprogram, so many times, each time from its entry on.
-    Call { found: Found, entry: Cursor, repeats: u32 },
+    /// In a subprogram, so many times, each time from its entry on; it may be a large one.
+    Call { found: Found, entry: Cursor, repeats: u32, large: bool },
     /// In a macro with the block's arguments, so many times.
     MacroCall(Found, u32),
     /// With the next block, and in a macro after every move.
@@ -44,6 +45,8 @@ pub(crate) struct Reading<'r> {
     pub words: Words<'r>,
     /// The values of words that were variables, by their index; blanks for the others.
     pub word_values: &'r [f64],
+    /// The program that the block calls by name.
+    pub called: CallName,
     /// The arguments of a macro call.
     pub arguments: &'r mut Arguments,
     /// Words before a block-delete sign whose switch is on.
@@ -84,7 +87,7 @@ pub(crate) fn read_meaning(
     calls: &Calls,
     before: &State,
     next: &mut State,
-    (block, word_values): (&Block, &[f64]),
+    (block, word_values, called): (&Block, &[f64], CallName),
     arguments: &mut Arguments,
     command: &mut Command,
 ) -> Result<Flow, Refusal> {
@@ -101,6 +104,7 @@ pub(crate) fn read_meaning(
         calls,
         words,
         word_values,
+        called,
         arguments,
         word_count,
         before,

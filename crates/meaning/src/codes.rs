@@ -112,7 +112,10 @@ impl Reading<'_> {
                 self.calls_or_returns = true;
                 return self.call(word).map(Some);
             }
-            MMeaning::InternalCall => return Err(self.words.alarm_at(Condition::NotYetBuilt, word).into()),
+            MMeaning::InternalCall => {
+                self.calls_or_returns = true;
+                return self.internal_call(word, code).map(Some);
+            }
             MMeaning::SubprogramEnd => {
                 self.calls_or_returns = true;
                 return self.subprogram_end().map(Some);

@@ -7,7 +7,7 @@ mod states;
 
 use std::sync::Arc;
 
-use base::{AXES, AxisSet, Point, ProgramId, SourceId};
+use base::{AXES, AxisSet, Place, Point, ProgramId, SourceId};
 use dialect::{Control, Fitting, GroupCodes};
 use syntax::Cursor;
 
@@ -166,6 +166,11 @@ impl Interpreter {
     /// A program's name.
     pub fn program_name(&self, program: ProgramId) -> &str {
         self.reader.names.name(program)
+    }
+
+    /// Where the text of a called program that was read last ended before its M99.
+    pub fn unreturned(&self) -> Option<Place> {
+        self.reader.unreturned
     }
 
     /// The main program and its source, if one is selected.

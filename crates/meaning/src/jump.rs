@@ -6,18 +6,19 @@
 
 use std::collections::BTreeMap;
 
-use base::{Condition, ProgramId, SourceId};
+use base::{Alarm, Condition, ProgramId, SourceId};
+use dialect::CallFromLarge;
 use syntax::{Cursor, Word};
 
 use crate::block::{Flow, Reading};
-use crate::program::{CalledBy, Frame};
+use crate::program::{CalledBy, Frame, ProgramKey};
 use crate::word::Refusal;
 
 /// What a jump looks for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Target {
     /// A program, called from a source.
-    Program { number: u32, from: SourceId },
+    Program { program: ProgramKey, from: SourceId },
     /// A block of the program that begins at `head`, looked for from `from` on.
     Sequence { source: SourceId, program: ProgramId, head: Cursor, from: Cursor, number: u32 },
     /// The block after the end of the loop of this number whose first block is at `from`.
@@ -28,7 +29,8 @@ impl Target {
     /// What is missing where it is nowhere, and the number that was looked for.
     pub fn missing(&self) -> (Condition, [f64; 3]) {
         let (condition, number) = match *self {
-            Target::Program { number, .. } => (Condition::ProgramNotFound, number),
+            Target::Program { program: ProgramKey::Number(number), .. } => (Condition::ProgramNotFound, number),
+            Target::Program { .. } => (Condition::FileNotFound, 0),
             Target::Sequence { number, .. } => (Condition::SequenceNotFound, number),
             Target::LoopEnd { number, .. } => (Condition::MacroLoopPair, u32::from(number)),
         };
@@ -119,7 +121,8 @@ pub(crate) struct ProgramIndex {
 }
 
 impl ProgramIndex {
-    pub fn find(&self, source: SourceId, number: u32) -> Option<Found> {
+    pub fn find(&self, source: SourceId, program: ProgramKey) -> Option<Found> {
+        let ProgramKey::Number(number) = program else { return None };
         self.programs.get(&(source, number)).copied()
     }
 
@@ -156,8 +159,8 @@ impl Calls {
 
     /// The answer to a target, if it has been looked for; the inner `None` is "nowhere".
     pub fn lookup(&self, target: &Target) -> Option<Option<Found>> {
-        if let Target::Program { number, from } = *target
-            && let Some(found) = self.index.find(from, number)
+        if let Target::Program { program, from } = *target
+            && let Some(found) = self.index.find(from, program)
         {
             return Some(Some(found));
         }
@@ -165,7 +168,7 @@ impl Calls {
     }
 
     pub fn remember(&mut self, target: Target, found: Option<Found>) {
-        if let (Target::Program { number, from }, Some(found)) = (target, found)
+        if let (Target::Program { program: ProgramKey::Number(number), from }, Some(found)) = (target, found)
             && self.index.programs.len() < INDEXED
         {
             self.index.programs.insert((from, number), found);
@@ -218,19 +221,83 @@ impl Reading<'_> {
         }
     }
 
-    /// M98: the program P, L times.
+    /// M98: the program P, or the one that is named, L times.
     pub fn call(&mut self, word: &Word) -> Result<Flow, Refusal> {
+        let program = self.callee(word)?;
+        let repeats = self.repeats()?;
+        self.check_level(word)?;
+        if repeats == 0 {
+            return Ok(Flow::Next);
+        }
+        let target = Target::Program { program, from: self.words.place.source };
+        if let (Some(None), Some(name)) = (self.calls.lookup(&target), self.words.block.call_name) {
+            let span = name.span(self.words.block.start.offset);
+            return Err(Alarm::new(Condition::FileNotFound, self.words.place, span).into());
+        }
+        let found = self.locate(target, b'P')?;
+        let large = matches!(program, ProgramKey::File { large: true, .. });
+        Ok(Flow::Call { found, entry: self.entry(found)?, repeats, large })
+    }
+
+    /// The program that M98 calls: the one whose name stands behind it, or P.
+    fn callee(&self, word: &Word) -> Result<ProgramKey, Alarm> {
         let control = self.control();
-        let Some(number) = self.words.count(control, b'P')?.filter(|&number| number > 0) else {
+        let missing = || self.words.alarm_at(Condition::CallTargetMissing, word);
+        if control.grammar.named_call.is_none() {
+            let number = self.words.count(control, b'P')?.filter(|&number| number > 0);
+            return number.map(ProgramKey::Number).ok_or_else(missing);
+        }
+        let (block, taken) = (self.words.block, self.word_count);
+        let company = |other: &&Word| !matches!(other.letter, b'N' | b'L') && other.extent != word.extent;
+        if let Some(other) = block.words.iter().take(taken).find(company) {
+            return Err(self.words.alarm_at(Condition::CallNotAlone, other));
+        }
+        match (self.called, block.call_name) {
+            (Some(Ok(program)), _) => Ok(program),
+            (Some(Err(condition)), Some(name)) => {
+                Err(Alarm::new(condition, self.words.place, name.span(block.start.offset)))
+            }
+            _ => Err(missing()),
+        }
+    }
+
+    /// Refuses a call that is one too deep, or out of a program that calls no others.
+    fn check_level(&self, word: &Word) -> Result<(), Alarm> {
+        if self.is_in_large() {
+            return Err(self.words.alarm_at(Condition::CallFromLarge, word));
+        }
+        if self.calls.subprogram_level() >= self.calls.levels {
+            let levels = self.calls.levels as f64;
+            return Err(self.words.alarm_at(Condition::NestingTooDeep, word).with([levels, 0.0, 0.0]));
+        }
+        Ok(())
+    }
+
+    /// True in a program that was called as a large one and calls no others.
+    pub fn is_in_large(&self) -> bool {
+        let refuses = self.setting.fitting.policies.call_from_large == CallFromLarge::Refuse;
+        refuses && self.calls.top().is_some_and(|frame| frame.large)
+    }
+
+    /// M97: the part of this program that begins at block P, L times.
+    pub fn internal_call(&mut self, word: &Word, code: u32) -> Result<Flow, Refusal> {
+        if !self.setting.fitting.options.internal_call {
+            let alarm = self.words.alarm_at(Condition::MNotFitted, word);
+            return Err(alarm.with([f64::from(code), 0.0, 0.0]).into());
+        }
+        let Some(number) = self.words.count(self.control(), b'P')?.filter(|&number| number > 0) else {
             return Err(self.words.alarm_at(Condition::CallTargetMissing, word).into());
         };
         let repeats = self.repeats()?;
-        if self.calls.subprogram_level() >= self.calls.levels {
-            let levels = self.calls.levels as f64;
-            return Err(self.words.alarm_at(Condition::NestingTooDeep, word).with([levels, 0.0, 0.0]).into());
+        self.check_level(word)?;
+        let Some(&Frame { source, program, head, .. }) = self.calls.top() else { return Ok(Flow::Next) };
+        if repeats == 0 {
+            return Ok(Flow::Next);
         }
-        let found = self.locate(Target::Program { number, from: self.words.place.source }, b'P')?;
-        Ok(Flow::Call { found, entry: self.entry(found)?, repeats })
+        let target = Target::Sequence { source, program, head, from: self.words.block.next, number };
+        let entry = self.locate(target, b'P')?.cursor;
+        let found = Found { source, program, cursor: head, enters: false };
+        Ok(Flow::Call { found, entry, repeats, large: false })
     }
 
     /// The block with which a called program begins: its first one, or that of Q.

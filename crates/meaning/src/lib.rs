@@ -65,7 +65,7 @@ pub use operation::{
     StopKind, StrokeArea,
 };
 pub use polar::Polar;
-pub use program::Pointer;
+pub use program::{Pointer, ProgramKey};
 pub use pull::{Answer, Barrier, BarrierKind, Pull, Quantity, StaleBarrier};
 pub use record::{ReadAs, StatementRead, StatementRuns, WordsRead};
 pub use reference_point::ReferenceData;

@@ -2,8 +2,29 @@
 
 use std::collections::BTreeMap;
 
-use base::{ProgramId, SourceId};
+use base::{Condition, ProgramId, SourceId};
+use dialect::FileNames;
 use syntax::Cursor;
+
+/// A program that is called.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ProgramKey {
+    /// By its number.
+    Number(u32),
+    /// By its file.
+    File {
+        /// The file's name with its ending, in capitals.
+        name: ProgramId,
+        /// The name was written with its ending, as that of a large program.
+        large: bool,
+    },
+}
+
+/// The longest name of a program's file.
+const LONGEST_NAME: usize = 64;
+
+/// The program that a block calls by name, or what is wrong with the name.
+pub(crate) type CallName = Option<Result<ProgramKey, Condition>>;
 
 /// The names of programs, each kept once.
 #[derive(Default)]
@@ -32,6 +53,46 @@ impl Names {
         let program = self.intern(&format!("O{number}"));
         self.by_number.insert(number, program);
         program
+    }
+
+    /// The program that a call names: its file, or (`numbers`) P and its number.
+    ///
+    /// # Errors
+    /// It is no program's name.
+    pub fn called(&mut self, text: &[u8], files: &FileNames, numbers: bool) -> Result<ProgramKey, Condition> {
+        if let [b'P' | b'p', digits @ ..] = text
+            && numbers
+            && !digits.is_empty()
+            && digits.iter().all(u8::is_ascii_digit)
+        {
+            let number = std::str::from_utf8(digits).ok().and_then(|digits| digits.parse().ok());
+            return match number {
+                Some(number) if number > 0 => Ok(ProgramKey::Number(number)),
+                Some(_) => Err(Condition::CallTargetMissing),
+                None => Err(Condition::ProgramName),
+            };
+        }
+        let (stem, ending) = match text.iter().position(|&byte| byte == b'.') {
+            Some(point) => (&text[..point], Some(&text[point + 1..])),
+            None => (text, None),
+        };
+        if stem.is_empty() || !stem.iter().all(|&byte| byte.is_ascii_alphanumeric() || byte == b'_') {
+            return Err(Condition::ProgramName);
+        }
+        let large =
+            files.large.as_ref().filter(|large| ending.is_some_and(|e| e.eq_ignore_ascii_case(large.as_bytes())));
+        if ending.is_some() && large.is_none() {
+            return Err(Condition::ProgramEnding);
+        }
+        let ending = large.unwrap_or(&files.ending).as_bytes();
+        let mut name = [0u8; LONGEST_NAME];
+        let len = stem.len() + 1 + ending.len();
+        let Some(room) = name.get_mut(..len) else { return Err(Condition::ProgramName) };
+        for (to, from) in room.iter_mut().zip(stem.iter().chain(b".").chain(ending)) {
+            *to = from.to_ascii_uppercase();
+        }
+        let name = std::str::from_utf8(room).map_err(|_| Condition::ProgramName)?;
+        Ok(ProgramKey::File { name: self.intern(name), large: large.is_some() })
     }
 
     /// The number of a program that is named by one, 0 for others.
@@ -80,6 +141,8 @@ pub(crate) struct Frame {
     pub begun: bool,
     /// Where that block begins.
     pub first: u64,
+    /// It was called as a large program.
+    pub large: bool,
     /// The sign that begins a tape has been read: the next one ends it.
     pub opened: bool,
     /// How many more times it runs after this one.

@@ -2,6 +2,8 @@
 
 use base::{Point, SourceId};
 
+use crate::program::ProgramKey;
+
 /// What a stage has next.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Pull<T> {
@@ -34,10 +36,10 @@ pub enum BarrierKind {
         /// At most so many bytes.
         len: usize,
     },
-    /// The program of this number, from outside the texts that are open.
+    /// A program from outside the texts that are open.
     NeedProgram {
-        /// Its number.
-        number: u32,
+        /// Which one.
+        program: ProgramKey,
     },
     /// Something that a macro reads of the machine.
     NeedValue(Quantity),
@@ -76,6 +78,8 @@ pub enum Answer<'a> {
     Bytes(&'a [u8], bool),
     /// The source in which the program stands.
     Program(SourceId),
+    /// The source that is the program, and its name.
+    File(SourceId, &'a str),
     /// There is no such program or text.
     NotFound,
     /// What a macro reads.

@@ -17,7 +17,7 @@ use crate::block::{Flow, read_meaning};
 use crate::command::{Body, Command, Finish, MOST_CODES};
 use crate::jump::{Calls, LoopsAround};
 use crate::operation::{CodeLine, CodeOut, EndKind, SetValue, Side};
-use crate::program::{Frame, Names};
+use crate::program::{CallName, Frame, Names, ProgramKey};
 use crate::pull::Quantity;
 use crate::record::{Records, WordsRead};
 use crate::repetition::Repetition;
@@ -40,7 +40,7 @@ pub(crate) enum Read {
     /// Bytes of a source are needed first.
     NeedBytes { source: SourceId, offset: u64 },
     /// A program from outside is needed first.
-    NeedProgram { number: u32 },
+    NeedProgram { program: ProgramKey },
     /// The machine must be asked first.
     NeedValue(Quantity),
     /// So many statements have been carried out ahead that the blocks before them come first.
@@ -82,6 +82,10 @@ pub(crate) struct Reader {
     /// What the machine has answered for the statement at hand.
     pub answers: Vec<(Quantity, f64)>,
     pub(crate) block: Block,
+    /// The program that the block at hand names.
+    pub(crate) called: CallName,
+    /// Where a called program's text ended before its M99.
+    pub(crate) unreturned: Option<Place>,
     pub(crate) search: Option<Search>,
     pub(crate) blocks: u64,
     ended: bool,
@@ -124,6 +128,8 @@ impl Reader {
             word_values: Vec::with_capacity(32),
             answers: Vec::with_capacity(16),
             block: Block::default(),
+            called: None,
+            unreturned: None,
             search: None,
             blocks: 0,
             ended: true,
@@ -175,11 +181,13 @@ impl Reader {
                 Some(index) => {
                     let Some(line) = self.store.line(index) else { return Read::Ended };
                     self.store.load(line, &mut self.block);
+                    self.called = line.called;
                     Some(index)
                 }
                 None => match self.read_text(&frame, &mut unsound) {
                     Ok(line) => line,
                     Err(Text::More) => return self.need(frame.source, frame.cursor.offset),
+                    Err(Text::End) if self.returns_at_end(&frame) => continue,
                     Err(Text::End) => return self.end_of_text(&frame, command),
                     Err(Text::Refused(refused)) => match self.refuse_statement(refused, &frame, command) {
                         Some(read) => return read,
@@ -246,7 +254,7 @@ impl Reader {
         let (supply, index) = (&mut self.supply, &mut self.calls.index);
         match search.advance(supply, &grammar, &mut self.names, &mut self.block, index, block_delete) {
             Progress::NeedBytes { source, offset } => Some(self.need(source, offset)),
-            Progress::NeedProgram { number } => Some(Read::NeedProgram { number }),
+            Progress::NeedProgram { program } => Some(Read::NeedProgram { program }),
             Progress::Done(found) => {
                 let target = search.target();
                 self.calls.remember(target, found);
@@ -284,8 +292,8 @@ impl Reader {
         if place.sequence > 0 {
             self.next.sequence = place.sequence;
         }
-        let Reader { setting, calls, state, next, block, word_values, arguments, .. } = self;
-        match read_meaning(setting, calls, state, next, (block, word_values), arguments, command) {
+        let Reader { setting, calls, state, next, block, word_values, called, arguments, .. } = self;
+        match read_meaning(setting, calls, state, next, (block, word_values, *called), arguments, command) {
             Ok(flow) => {
                 self.begin(self.block.next, command);
                 match self.follow(flow, command) {

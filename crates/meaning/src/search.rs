@@ -1,11 +1,11 @@
 //! A search for a jump's target: read block by block through the texts, as far as they are at hand.
 
 use base::{ProgramId, SourceId};
-use syntax::{Block, Cursor, Grammar, Outcome, read_block};
+use syntax::{Block, Cursor, Grammar, Grouping, Outcome, read_block};
 
 use crate::block::cut_by_block_delete;
 use crate::jump::{Found, LoopsAround, ProgramIndex, Target};
-use crate::program::Names;
+use crate::program::{Names, ProgramKey};
 use crate::supply::Supply;
 use crate::user_macro::statement::loop_mark;
 
@@ -46,7 +46,7 @@ pub(crate) struct Search {
 /// What a search needs or has come to.
 pub(crate) enum Progress {
     NeedBytes { source: SourceId, offset: u64 },
-    NeedProgram { number: u32 },
+    NeedProgram { program: ProgramKey },
     Done(Option<Found>),
 }
 
@@ -89,9 +89,13 @@ impl Search {
         index: &mut ProgramIndex,
         block_delete: u16,
     ) -> Progress {
+        if grammar.grouping == Grouping::Files && matches!(self.target, Target::Program { .. }) {
+            // No text holds another program.
+            self.stage = Stage::Asked;
+        }
         loop {
             let source = match (self.stage, self.target) {
-                (Stage::Asked, Target::Program { number, .. }) => return Progress::NeedProgram { number },
+                (Stage::Asked, Target::Program { program, .. }) => return Progress::NeedProgram { program },
                 (Stage::Asked, _) => return Progress::Done(None),
                 (Stage::Scan(source) | Stage::Brought(source), _) => source,
             };
@@ -133,9 +137,9 @@ impl Search {
 
     fn matches(&self, source: SourceId, names: &mut Names, grammar: &Grammar, block: &Block) -> Option<Found> {
         match self.target {
-            Target::Program { number, .. } => {
-                program_of(source, names, grammar, block).filter(|(found, _)| *found == number).map(|(_, found)| found)
-            }
+            Target::Program { program, .. } => program_of(source, names, grammar, block)
+                .filter(|(found, _)| ProgramKey::Number(*found) == program)
+                .map(|(_, found)| found),
             Target::Sequence { number, program, .. } => {
                 // Behind the O word of the next program a number is that program's; from the head on it is this one's.
                 let own = self.from_head || !block.begins_program(grammar);
@@ -209,16 +213,19 @@ impl Search {
                 self.passed_loops = LoopsAround::default();
             }
             (Target::LoopEnd { .. }, _) => return Some(Progress::Done(None)),
-            (Target::Program { number, .. }, Stage::Scan(scanned)) if scanned != self.main => {
-                if let Some(found) = index.find(self.main, number) {
+            (Target::Program { program, .. }, Stage::Scan(scanned)) if scanned != self.main => {
+                if let Some(found) = index.find(self.main, program) {
                     return Some(Progress::Done(Some(found)));
                 }
                 self.stage = Stage::Scan(self.main);
                 (self.cursor, self.passed) = index.read_to(self.main);
             }
             (Target::Program { .. }, Stage::Scan(_)) => self.stage = Stage::Asked,
-            (Target::Program { number, .. }, Stage::Brought(_)) => {
-                let program = names.numbered(number);
+            (Target::Program { program, .. }, Stage::Brought(_)) => {
+                let program = match program {
+                    ProgramKey::Number(number) => names.numbered(number),
+                    ProgramKey::File { name, .. } => name,
+                };
                 let cursor = Cursor::HEAD;
                 return Some(Progress::Done(Some(Found { source, program, cursor, enters: false })));
             }

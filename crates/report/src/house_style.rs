@@ -223,6 +223,7 @@ fn signature(items: &[Item]) -> Vec<Vec<String>> {
                 format!("{letter} {mantissa} {decimals} {point} {negative}")
             }
             Item::Word { letter, text, .. } => format!("{letter} {text:?}"),
+            Item::Name(text) => format!("name {text:?}"),
             Item::Comment(text) => format!("({text:?}"),
             Item::Statement { kind, text } => {
                 let bare: Vec<u8> = text.iter().copied().filter(|byte| !matches!(byte, b' ' | b'\t' | 0)).collect();

@@ -286,9 +286,15 @@ pub(crate) fn stop_name(cause: StopCause) -> &'static str {
     }
 }
 
+/// The names of function keys.
+const FUNCTION_KEYS: &[&str] = &["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9", "F10", "F11", "F12"];
+
 pub(crate) fn cause_name(cause: ResetCause) -> &'static str {
     match cause {
         ResetCause::Key => "reset-key",
+        ResetCause::FunctionKey(number) => {
+            FUNCTION_KEYS.get(usize::from(number).wrapping_sub(1)).copied().unwrap_or("key")
+        }
         ResetCause::ProgramEnd => "program-end",
         ResetCause::EmergencyStop => "emergency-stop",
     }

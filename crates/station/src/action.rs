@@ -89,6 +89,8 @@ pub enum Action {
     FeedHold,
     /// `reset`
     Reset,
+    /// `key F10`
+    Key(String),
     /// `emergency-stop`
     EmergencyStop,
     /// `release`
@@ -169,6 +171,7 @@ impl fmt::Display for Action {
             Action::CycleStart => f.write_str("cycle-start"),
             Action::FeedHold => f.write_str("feed-hold"),
             Action::Reset => f.write_str("reset"),
+            Action::Key(name) => write!(f, "key {name}"),
             Action::EmergencyStop => f.write_str("emergency-stop"),
             Action::Release => f.write_str("release"),
             Action::Switch(name, None, on) => write!(f, "switch {name} {}", state(on)),

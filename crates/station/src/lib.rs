@@ -20,7 +20,7 @@ pub use action::{Action, OverrideSwitch, Show, Until};
 pub use catalogue::{blocks_of, programs_in};
 pub use configuration::{Configuration, ConfigurationError, Inputs};
 pub use display::Value;
-pub use library::{Library, LibraryError, Shelf};
+pub use library::{Library, LibraryError, Shelf, Wanted};
 pub use operator::{Operator, Said};
 pub use script::{ScriptError, ScriptLine, read_action, read_script, split_offset, split_parameter, split_switch};
 pub use session::{AfterAlarm, Percents, Session, Step, TYPED};

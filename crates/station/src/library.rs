@@ -14,6 +14,15 @@ impl std::fmt::Display for LibraryError {
 
 impl std::error::Error for LibraryError {}
 
+/// A program that is looked for outside the texts at hand.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Wanted<'n> {
+    /// By its number; of several files of that number the one with this ending comes first.
+    Number(u32, &'n str),
+    /// By its file's name with its ending, whatever the case of its letters.
+    File(&'n str),
+}
+
 /// The texts at hand.
 pub trait Library {
     /// Reads at most `len` bytes of a source from `offset` on into `bytes` (cleared first). Returns true if the
@@ -23,11 +32,16 @@ pub trait Library {
     /// The source cannot be read.
     fn read(&mut self, source: SourceId, offset: u64, len: usize, bytes: &mut Vec<u8>) -> Result<bool, LibraryError>;
 
-    /// The source that holds the program of this number, outside the texts that are open already.
+    /// The source that holds a program, outside the texts that are open already.
     ///
     /// # Errors
     /// A file of that name is there and cannot be read.
-    fn find_program(&mut self, number: u32) -> Result<Option<SourceId>, LibraryError>;
+    fn find_program(&mut self, wanted: Wanted) -> Result<Option<SourceId>, LibraryError>;
+
+    /// The name of a program that is a file, without folder and ending; `None` if it is not known.
+    fn file_name(&self, _source: SourceId) -> Option<String> {
+        None
+    }
 }
 
 /// The texts at hand, and files to load from.
@@ -38,6 +52,6 @@ pub trait Shelf: Library {
     /// The file cannot be read.
     fn open_file(&mut self, file: &str) -> Result<(SourceId, String), LibraryError>;
 
-    /// The program of this number is in the control's memory: [`Library::find_program`] finds it before any other.
-    fn keep_in_memory(&mut self, number: u32, source: SourceId);
+    /// This program is in the control's memory: [`Library::find_program`] finds it before any other.
+    fn keep_in_memory(&mut self, program: Wanted, source: SourceId);
 }

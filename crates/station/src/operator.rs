@@ -7,14 +7,14 @@ mod write;
 use std::collections::{BTreeMap, BTreeSet};
 
 use base::{Condition, SourceId};
-use dialect::{ModeRow, VariableMeaning};
-use machine::{Event, EventKind};
+use dialect::{FileNames, Key, ModeRow, VariableMeaning};
+use machine::{Event, EventKind, ResetCause};
 use syntax::Cursor;
 
 use crate::action::{Action, Until};
 use crate::catalogue::programs_in;
 use crate::display::Value;
-use crate::library::{Library, LibraryError, Shelf};
+use crate::library::{Library, LibraryError, Shelf, Wanted};
 use crate::session::{Session, Step};
 use table::Begins;
 
@@ -42,6 +42,8 @@ pub enum Said {
 /// A program in the control's memory.
 #[derive(Clone, PartialEq, Debug)]
 struct Loaded {
+    /// Its name as it is shown.
+    name: String,
     /// The text it stands in.
     source: SourceId,
     /// Where it begins in that text.
@@ -140,6 +142,7 @@ impl<L: Shelf> Operator<L> {
                 self.session.begin_rounds();
                 self.run(until, tell)?;
             }
+            Action::Key(name) => return Ok(self.press_key(name)),
             Action::Select(name) => return Ok(self.select(name)),
             Action::Mode(name) => return Ok(self.turn_mode(name)),
             Action::Mdi(blocks) => return Ok(self.type_blocks(blocks)),
@@ -151,6 +154,33 @@ impl<L: Shelf> Operator<L> {
             action => return Ok(self.write(action)),
         }
         Ok(Ok(()))
+    }
+
+    /// A key beside the usual buttons does what the control's table says.
+    fn press_key(&mut self, name: &str) -> Result<(), String> {
+        let station = &self.session.configuration().control.station;
+        let known = station.keys.iter().find(|(key, _)| key.eq_ignore_ascii_case(name));
+        let number = name.get(1..).and_then(|number| number.parse().ok()).unwrap_or(0);
+        let (action, cause) = match known.map(|(_, does)| does.clone()) {
+            Some(Key::Reset) => (Action::Reset, Some(ResetCause::FunctionKey(number))),
+            Some(Key::Mode(mode)) => (Action::Mode(mode), None),
+            None if station.keys.is_empty() => return Err("this control has no such keys".to_owned()),
+            None => {
+                let known: Vec<_> = station.keys.iter().map(|(key, _)| key.as_str()).collect();
+                return Err(format!("no key {name} is known; the keys are {}", known.join(", ")));
+            }
+        };
+        if let Some(why) = table::refusal(&action, table::situation(&self.session)) {
+            return Err(why.to_owned());
+        }
+        match (action, cause) {
+            (Action::Mode(mode), _) => self.turn_mode(&mode),
+            (_, Some(cause)) => {
+                self.session.reset_by(cause);
+                Ok(())
+            }
+            _ => Ok(()),
+        }
     }
 
     fn turn_mode(&mut self, name: &str) -> Result<(), String> {
@@ -174,13 +204,13 @@ impl<L: Shelf> Operator<L> {
     }
 
     fn select(&mut self, name: &str) -> Result<(), String> {
-        let name = normal_name(name);
-        let Some(&Loaded { source, head }) = self.programs.get(&name) else {
-            return Err(format!("there is no program {name} in memory"));
+        let key = memory_key(name, self.files());
+        let Some(Loaded { name, source, head }) = self.programs.get(&key) else {
+            return Err(format!("there is no program {} in memory", normal_name(name)));
         };
         self.session.interpreter_mut().forget_texts();
-        self.session.select(source, &name, head);
-        self.selected = Some(name);
+        self.session.select(*source, name, *head);
+        self.selected = Some(key);
         Ok(())
     }
 
@@ -213,10 +243,15 @@ impl<L: Shelf> Operator<L> {
     /// Loads a file into memory: every program that it holds.
     fn load(&mut self, file: &str, name: Option<&str>) -> Result<(), LibraryError> {
         let grammar = self.session.configuration().control.grammar;
+        let files = self.files().cloned();
         let interpreter = self.session.interpreter();
         let codes = interpreter.fitting().tape_codes(interpreter.control());
         let shelf = self.session.library_mut();
         let (source, own_name) = shelf.open_file(file)?;
+        if let Some(files) = files {
+            return self.load_file(name.unwrap_or(file), (source, name.unwrap_or(&own_name)), &files);
+        }
+        let shelf = self.session.library_mut();
         let found = programs_in(shelf, source, &grammar, codes)?;
         let mut names = Vec::new();
         // A name given by hand, or the file's where no O word stands in it, is that of the text's first program.
@@ -233,17 +268,49 @@ impl<L: Shelf> Operator<L> {
         let mut reloaded = false;
         for (name, head) in names.into_iter().rev() {
             if let Some(number) = name.strip_prefix('O').and_then(|digits| digits.parse().ok()) {
-                self.session.library_mut().keep_in_memory(number, source);
+                self.session.library_mut().keep_in_memory(Wanted::Number(number, ""), source);
             }
             reloaded |= self.selected.as_ref() == Some(&name);
-            self.programs.insert(name, Loaded { source, head });
+            self.programs.insert(name.clone(), Loaded { name, source, head });
         }
-        // What was remembered of the program that this one replaces is worth nothing.
+        self.take_new_texts(reloaded);
+        Ok(())
+    }
+
+    /// The endings of files, where a program is a file.
+    fn files(&self) -> Option<&FileNames> {
+        self.session.configuration().control.files.as_ref()
+    }
+
+    /// Loads a file that is one program, known by its name without case.
+    fn load_file(
+        &mut self,
+        file: &str,
+        (source, shown): (SourceId, &str),
+        files: &FileNames,
+    ) -> Result<(), LibraryError> {
+        let shown = without_ending(shown, files);
+        let key = shown.to_ascii_uppercase();
+        let names = [(key.clone(), Cursor::HEAD)];
+        if let Some((condition, value)) = self.load_refusal(&names) {
+            self.session.raise_at_panel(condition, [value, 0.0, 0.0]);
+            return Ok(());
+        }
+        let large = files.large.as_ref().filter(|large| ends_with(file, large));
+        let called = format!("{key}.{}", large.unwrap_or(&files.ending).to_ascii_uppercase());
+        self.session.library_mut().keep_in_memory(Wanted::File(&called), source);
+        let reloaded = self.selected.as_ref() == Some(&key);
+        self.programs.insert(key, Loaded { name: shown.to_owned(), source, head: Cursor::HEAD });
+        self.take_new_texts(reloaded);
+        Ok(())
+    }
+
+    /// What was remembered of programs is worth nothing; the one that was selected may have been replaced.
+    fn take_new_texts(&mut self, reloaded: bool) {
         self.session.interpreter_mut().forget_texts();
         if let (true, Some(name)) = (reloaded, self.selected.clone()) {
             let _ = self.select(&name);
         }
-        Ok(())
     }
 
     /// Why memory does not take these programs, if it does not, and the number that says so.
@@ -294,6 +361,24 @@ impl<L: Shelf> Operator<L> {
             }
         }
     }
+}
+
+/// Under which name a program is kept in memory.
+fn memory_key(name: &str, files: Option<&FileNames>) -> String {
+    match files {
+        Some(files) => without_ending(name, files).to_ascii_uppercase(),
+        None => normal_name(name),
+    }
+}
+
+fn ends_with(name: &str, ending: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, own)| own.eq_ignore_ascii_case(ending))
+}
+
+/// A program's name without the ending of its file.
+fn without_ending<'n>(name: &'n str, files: &FileNames) -> &'n str {
+    let known = ends_with(name, &files.ending) || files.large.as_ref().is_some_and(|large| ends_with(name, large));
+    name.rsplit_once('.').filter(|_| known).map_or(name, |(stem, _)| stem)
 }
 
 /// `o0012` and `O12` are one program; other names stay as they are.

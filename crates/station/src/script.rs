@@ -15,7 +15,7 @@ pub struct ScriptError {
 }
 
 /// Actions of the vocabulary that wait for their time.
-const NOT_BUILT: &[&str] = &["key", "jog", "step", "home"];
+const NOT_BUILT: &[&str] = &["jog", "step", "home"];
 
 /// One action of a script.
 #[derive(Clone, PartialEq, Debug)]
@@ -95,6 +95,7 @@ pub fn read_action(line: &str) -> Result<Action, String> {
         ("cycle-start", []) => Action::CycleStart,
         ("feed-hold", []) => Action::FeedHold,
         ("reset", []) => Action::Reset,
+        ("key", [name]) => Action::Key((*name).to_owned()),
         ("emergency-stop", []) => Action::EmergencyStop,
         ("release", []) => Action::Release,
         ("input", [name, state]) => Action::Input((*name).to_owned(), on_or_off(state)?),
@@ -263,6 +264,7 @@ mod tests {
             "show work G52",
             "run until line 3",
             "emergency-stop",
+            "key F10",
         ] {
             assert_eq!(read_action(line).expect(line).to_string(), line);
         }

@@ -136,6 +136,8 @@ pub struct Block {
     pub skips: Vec<Skip>,
     /// The comments, parentheses included.
     pub comments: Vec<Extent>,
+    /// The name of the program that the block calls, where a control calls programs by name.
+    pub call_name: Option<Extent>,
     /// A macro statement, after the words if there are any.
     pub statement: Option<Statement>,
     /// A variable or expression stands in the place of some word's number.
@@ -154,6 +156,7 @@ impl Default for Block {
             words: Vec::with_capacity(32),
             skips: Vec::with_capacity(4),
             comments: Vec::with_capacity(4),
+            call_name: None,
             statement: None,
             variables: false,
             faults: Vec::with_capacity(4),
@@ -193,6 +196,7 @@ impl Block {
         self.words.clear();
         self.skips.clear();
         self.comments.clear();
+        self.call_name = None;
         self.statement = None;
         self.variables = false;
         self.faults.clear();

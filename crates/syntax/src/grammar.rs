@@ -75,6 +75,8 @@ pub struct Grammar {
     pub percent: Percent,
     /// Where a block-delete sign may stand.
     pub block_delete: BlockDelete,
+    /// The M code behind which the name of a program's file stands, up to a blank, a comment or the end of the block.
+    pub named_call: Option<u32>,
     /// Most characters of a block, its end included.
     pub block_length: u32,
 }
@@ -88,6 +90,7 @@ impl Default for Grammar {
             grouping: Grouping::default(),
             percent: Percent::default(),
             block_delete: BlockDelete::default(),
+            named_call: None,
             block_length: u32::MAX,
         }
     }

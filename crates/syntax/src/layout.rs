@@ -23,6 +23,8 @@ pub enum Item {
         /// What it is.
         value: Value,
     },
+    /// The name of a program that is called.
+    Name(Vec<u8>),
     /// A comment with its parentheses.
     Comment(Vec<u8>),
     /// A macro statement.
@@ -46,6 +48,9 @@ pub fn take_apart(block: &Block, text: &[u8]) -> Vec<Item> {
         let own = bare(part(word.extent.at, word.extent.len));
         let text = own.get(1..).unwrap_or_default().to_vec();
         items.push((word.extent.at, Item::Word { letter: word.letter, text, value: word.value }));
+    }
+    if let Some(name) = block.call_name {
+        items.push((name.at, Item::Name(part(name.at, name.len).to_vec())));
     }
     for comment in &block.comments {
         let own = part(comment.at, comment.len).iter().copied().filter(|&byte| byte != 0).collect();
@@ -81,7 +86,7 @@ pub fn lay_out(items: &[Item]) -> Vec<u8> {
                     Value::Missing => line.extend_from_slice(text),
                 }
             }
-            Item::Comment(text) => line.extend_from_slice(text),
+            Item::Name(text) | Item::Comment(text) => line.extend_from_slice(text),
             Item::Statement { text, .. } => line.extend_from_slice(&lay_out_macro(text)),
         }
     }

@@ -199,6 +199,11 @@ impl Lexer<'_> {
 
     /// A letter and its number. False if the window ends first.
     fn word(&mut self, letter: u8) -> bool {
+        if letter == b'M'
+            && let Some(whole) = self.named_call()
+        {
+            return whole;
+        }
         let from = self.at;
         let scan = scan_number(&self.text[from + 1..]);
         if scan.open && !self.last {
@@ -396,6 +401,7 @@ impl Lexer<'_> {
         block.words.clear();
         block.skips.clear();
         block.comments.clear();
+        block.call_name = None;
         block.statement = None;
         block.variables = false;
         block.faults.clear();
@@ -421,6 +427,8 @@ impl Lexer<'_> {
 
 /// Faults beyond so many in one block say nothing new.
 const MOST_FAULTS: usize = 64;
+
+mod call;
 
 #[cfg(test)]
 mod tests;

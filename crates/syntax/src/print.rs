@@ -27,6 +27,14 @@ pub fn print_block(block: &Block, text: &[u8], out: &mut Vec<u8>) {
             }
             Value::Missing => {}
         }
+        // The name stands behind its code, between blanks.
+        let next = block.words.get(index + 1).map_or(u16::MAX, |next| next.extent.at);
+        if let Some(name) = block.call_name.filter(|name| (word.extent.at..next).contains(&name.at)) {
+            let (from, to) = (usize::from(name.at), usize::from(name.at) + usize::from(name.len));
+            out.push(b' ');
+            out.extend_from_slice(text.get(from..to).unwrap_or_default());
+            out.push(b' ');
+        }
     }
     print_skips(usize::MAX, out);
     if let Some(statement) = block.statement {

@@ -14,6 +14,7 @@ fn grammar() -> impl Strategy<Value = Grammar> {
             semicolon: if comment { Semicolon::Comment } else { Semicolon::EndOfBlock },
             lower_case: if fold { LowerCase::Fold } else { LowerCase::Refuse },
             colon: if colon { Colon::ProgramNumber } else { Colon::Refuse },
+            named_call: if fold { Some(98) } else { None },
             block_length,
             ..Grammar::default()
         },
@@ -27,7 +28,27 @@ fn piece() -> impl Strategy<Value = Vec<u8>> {
         ("[A-Z]", "(-)?#[0-9]{1,3}|\\[[#0-9+*]{0,6}\\]|#\\[#[0-9]\\]|-").prop_map(|(letter, text)| letter + &text);
     let statement = "#[0-9]{1,3}=[-#0-9+]{1,6}|IF\\[#1EQ[0-9]\\]GOTO ?[0-9]|WHILE\\[#1\\]DO1|END ?1|GOTO9|DO2";
     let sign = prop::sample::select(vec![
-        "\n", "\r\n", "\r", ";", "%", "/", "/2", "/ 9", " ", "\t", "(A)", "(", ")", "\0", "\x7F", ".", "-", "=", "x1",
+        "\n",
+        "M98 AB1.NC L2",
+        "M98",
+        "\r\n",
+        "\r",
+        ";",
+        "%",
+        "/",
+        "/2",
+        "/ 9",
+        " ",
+        "\t",
+        "(A)",
+        "(",
+        ")",
+        "\0",
+        "\x7F",
+        ".",
+        "-",
+        "=",
+        "x1",
         "\u{FEFF}",
     ]);
     prop_oneof![

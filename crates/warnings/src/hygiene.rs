@@ -125,7 +125,7 @@ fn take_words(control: &Control, block: &Block, targets: &mut Targets) {
         let meaning = u32::try_from(code).ok().and_then(|code| control.m_code(code)).map(|row| row.meaning);
         match (word.letter, meaning) {
             (b'M', Some(MMeaning::SubprogramCall)) => calls = true,
-            (b'M', Some(MMeaning::SubprogramEnd | MMeaning::InterruptOn)) => jumps = true,
+            (b'M', Some(MMeaning::SubprogramEnd | MMeaning::InternalCall | MMeaning::InterruptOn)) => jumps = true,
             (b'G', _) => calls |= calls_macro(code),
             _ => {}
         }

@@ -13,6 +13,7 @@ pub(crate) mod integer_feed;
 pub(crate) mod length_cancel_moves;
 pub(crate) mod memory_size;
 pub(crate) mod mirror_off_elsewhere;
+pub(crate) mod missing_return;
 pub(crate) mod offset_unset;
 pub(crate) mod one_shot_company;
 pub(crate) mod position_offset_absolute;

@@ -63,6 +63,8 @@ rules! {
     Endless = "endless",
     /// A comment allows something that no warning is called.
     AllowUnknown = "allow-unknown",
+    /// A called program's file ends without M99.
+    MissingReturn = "missing-return",
     /// The program is larger than the control's memory.
     MemorySize = "memory-size",
 }

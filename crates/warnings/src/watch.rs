@@ -22,7 +22,7 @@ use crate::rule::integer_coordinate::IntegerCoordinate;
 use crate::rule::integer_feed::IntegerFeed;
 use crate::rule::offset_unset::OffsetUnset;
 use crate::rule::one_shot_company::Company;
-use crate::rule::{BLOCK_RULES, rapid_down_and_across};
+use crate::rule::{BLOCK_RULES, missing_return, rapid_down_and_across};
 use crate::rules::Rule;
 
 /// Letters that only rare blocks have: codes, offsets, levels.
@@ -149,6 +149,7 @@ impl Watch {
 
     fn block(&mut self, interpreter: &Interpreter) {
         let [command, before] = interpreter.done();
+        missing_return::look(interpreter, command, &mut self.found);
         if mem::take(&mut self.refused) || command.is_refused() {
             return self.inherited.pass_over(&look(interpreter));
         }

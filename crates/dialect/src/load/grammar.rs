@@ -26,6 +26,7 @@ pub(super) fn grammar(root: &mut Table) -> (Grammar, bool) {
             block_delete: t
                 .choice("block_delete", &[("anywhere", BlockDelete::Anywhere), ("head", BlockDelete::Head)])
                 .unwrap_or_default(),
+            named_call: t.integer("named_call").and_then(|n| u32::try_from(n).ok()),
             block_length: t.integer("block_length").and_then(|n| u32::try_from(n).ok()).unwrap_or(u32::MAX),
         };
         let last = t.choice("repeated_word", &[("last-wins", true), ("refuse", false)]).unwrap_or(true);

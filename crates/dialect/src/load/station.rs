@@ -21,6 +21,9 @@ pub(super) struct StationDraft {
     pub protected: Vec<[u32; 2]>,
     pub keys: Vec<(String, Key)>,
     pub end_resets: bool,
+    pub end_rewinds: bool,
+    /// Name of the parameter: whether M02 rewinds.
+    pub m02_rewinds: Option<String>,
     pub states: Vec<StateRow>,
     /// For each state the name of the parameter that keeps it.
     pub keeping: Vec<Option<String>>,
@@ -39,13 +42,21 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
         (programs, t.string("more"), t.string("protection"), ranges(t, "protected"))
     });
     let (programs, more, protection, protected) = memory.unwrap_or_default();
-    let modes = root.tables("mode", mode);
+    let modes: Vec<ModeRow> = root.tables("mode", mode);
     if modes.is_empty() {
         root.error_here("a station has at least one [[mode]]");
     }
-    let keys = root.table("keys", |t| t.rest().iter().filter_map(key).collect());
-    let end_resets =
-        root.table("program_end", |t| t.choice("resets", &[("always", true), ("EOP", false)]).unwrap_or(false));
+    let keys: Option<Vec<(String, Key)>> = root.table("keys", |t| t.rest().iter().filter_map(key).collect());
+    let is_mode = |name: &String| modes.iter().any(|mode| mode.name == *name);
+    if keys.iter().flatten().any(|(_, key)| matches!(key, Key::Mode(name) if !is_mode(name))) {
+        root.error_here("[keys] turns to a mode that has no [[mode]]");
+    }
+    let end = root.table("program_end", |t| {
+        let resets = t.choice("resets", &[("always", true), ("EOP", false)]).unwrap_or(false);
+        let rewinds = t.choice("rewinds", &[("always", true), ("RWD", false)]).unwrap_or(false);
+        (resets, rewinds, t.string("m02_rewinds"))
+    });
+    let (end_resets, end_rewinds, m02_rewinds) = end.unwrap_or_default();
     let (mut seen, mut keeping) = (Vec::new(), Vec::new());
     let states = root.tables("state", |row| {
         keeping.push(row.string("kept_by_parameter"));
@@ -53,7 +64,9 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
     });
     StationDraft {
         keys: keys.unwrap_or_default(),
-        end_resets: end_resets.unwrap_or(false),
+        end_resets,
+        end_rewinds,
+        m02_rewinds,
         modes,
         overrides: overrides.unwrap_or_default(),
         parameters,
@@ -68,10 +81,12 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
 }
 
 fn key(entry: &Entry) -> Option<(String, Key)> {
-    match entry.string().as_deref() {
-        Some("reset") => Some((entry.key.clone(), Key::Reset)),
+    let text = entry.string();
+    match text.as_deref().map(|text| (text, text.strip_prefix("mode "))) {
+        Some(("reset", _)) => Some((entry.key.clone(), Key::Reset)),
+        Some((_, Some(mode))) => Some((entry.key.clone(), Key::Mode(mode.to_owned()))),
         _ => {
-            entry.error("a key does \"reset\"");
+            entry.error("a key does \"reset\" or turns to a mode, as in \"mode mdi\"");
             None
         }
     }
@@ -178,6 +193,8 @@ pub(super) fn resolve(
         protection: found(&draft.protection)?,
         keys: draft.keys,
         end_resets: draft.end_resets,
+        end_rewinds: draft.end_rewinds,
+        m02_rewinds: found(&draft.m02_rewinds)?,
         protected: draft.protected,
         modes: draft.modes,
         overrides: draft.overrides,

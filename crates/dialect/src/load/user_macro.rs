@@ -13,8 +13,10 @@ const MOST_COMMON: u32 = 1000;
 
 pub(super) fn user_macro(root: &mut Table) -> UserMacro {
     root.require("limits");
-    let limits = root.table("limits", |t| ["brackets", "loops", "triples"].map(|key| small(t.integer(key))));
-    let [brackets, loops, triples] = limits.unwrap_or([5, 3, 10]);
+    let limits = root.table("limits", |t| {
+        (["brackets", "loops", "triples"].map(|key| small(t.integer(key))), t.boolean("then").unwrap_or(false))
+    });
+    let ([brackets, loops, triples], then) = limits.unwrap_or(([5, 3, 10], false));
     let mut variables = root.tables("variable", variable);
     variables.sort_by_key(|row| row.from);
     if variables.windows(2).any(|pair| pair[0].to >= pair[1].from) {
@@ -23,6 +25,7 @@ pub(super) fn user_macro(root: &mut Table) -> UserMacro {
     UserMacro {
         brackets,
         loops: loops.min(9),
+        then,
         triples,
         variables,
         arguments: root.tables("argument", |row| ArgumentRow {

@@ -18,7 +18,10 @@ impl Interpreter {
                 self.take_bytes(source, offset, len, bytes, last);
             }
             (BarrierKind::NeedBytes { source, offset, len }, _) => self.take_bytes(source, offset, len, &[], true),
-            (BarrierKind::NeedProgram { .. }, Answer::Program(source)) => self.reader.brought(Some(source)),
+            (BarrierKind::NeedProgram { .. }, Answer::Program(source)) => self.reader.brought(Some((source, None))),
+            (BarrierKind::NeedProgram { .. }, Answer::File(source, name)) => {
+                self.reader.brought(Some((source, Some(name))));
+            }
             (BarrierKind::NeedProgram { .. }, _) => self.reader.brought(None),
             (BarrierKind::NeedValue(quantity), answer) => {
                 let value = if let Answer::Value(value) = answer { value } else { 0.0 };

@@ -131,7 +131,7 @@ impl Interpreter {
                 Read::NeedBytes { source, offset } => {
                     return Some(self.ask(BarrierKind::NeedBytes { source, offset, len: WINDOW }));
                 }
-                Read::NeedProgram { number } => return Some(self.ask(BarrierKind::NeedProgram { number })),
+                Read::NeedProgram { program } => return Some(self.ask(BarrierKind::NeedProgram { program })),
                 // Motion must have ended: the blocks in the queue come first.
                 Read::NeedValue(quantity) if quantity.waits_for_motion() && self.queue.len() > 0 => break,
                 Read::NeedValue(quantity) => return Some(self.ask(BarrierKind::NeedValue(quantity))),

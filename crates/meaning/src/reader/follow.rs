@@ -8,8 +8,8 @@ use crate::operation::EndKind;
 use crate::program::{CalledBy, Frame};
 use crate::repetition::Moment;
 use crate::user_macro::call::{Arguments, ModalCall};
-use base::{Alarm, Condition};
-use dialect::Meaning;
+use base::{Alarm, Condition, Place, Span};
+use dialect::{Meaning, SubprogramTextEnd};
 use syntax::Cursor;
 
 /// What a jump is part of.
@@ -42,7 +42,12 @@ impl Reader {
         }
         match flow {
             Flow::Next => {}
-            Flow::Call { found, entry, repeats } => self.enter(found, entry, repeats),
+            Flow::Call { found, entry, repeats, large } => {
+                self.enter(found, entry, repeats);
+                if let Some(frame) = self.calls.frames.last_mut() {
+                    frame.large = large;
+                }
+            }
             Flow::MacroCall(found, repeats) => {
                 let arguments = self.arguments;
                 self.enter_macro(found, repeats, CalledBy::Macro, &arguments);
@@ -152,6 +157,20 @@ impl Reader {
         if let Some(found) = found {
             self.advance(found.cursor);
         }
+    }
+
+    /// A called program's text has ended before its M99: true if that is its way back.
+    pub(super) fn returns_at_end(&mut self, frame: &Frame) -> bool {
+        let returns = self.setting.fitting.policies.subprogram_text_end == SubprogramTextEnd::Return;
+        if !returns || self.calls.frames.len() < 2 {
+            return false;
+        }
+        let Cursor { offset, line, line_start, .. } = frame.cursor;
+        let block = Span { start: offset, len: 0 };
+        let Frame { program, source, .. } = *frame;
+        self.unreturned = Some(Place { program, source, line, line_start, block, sequence: 0 });
+        self.leave(None);
+        true
     }
 
     /// Loops that a return has left are closed.

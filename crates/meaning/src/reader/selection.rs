@@ -1,11 +1,12 @@
 //! Where the reader stands: at the head of a program, sent on after a stop, at its end.
 
 use base::{AxisSet, Point, ProgramId, SourceId};
-use syntax::Cursor;
+use syntax::{Cursor, Grouping};
 
 use super::Reader;
 use crate::command::Command;
-use crate::program::Frame;
+use crate::jump::{Found, Target};
+use crate::program::{Frame, ProgramKey};
 use crate::repetition::Repetition;
 
 impl Reader {
@@ -86,14 +87,31 @@ impl Reader {
     }
 
     /// The program that was asked for, or that there is none.
-    pub fn brought(&mut self, source: Option<SourceId>) {
-        if let Some(search) = &mut self.search
-            && !search.brought(source)
-        {
-            let target = search.target();
-            self.calls.remember(target, None);
-            self.search = None;
-        }
+    ///
+    /// Where a program is a file, the source is the program; `name` is its file's.
+    pub fn brought(&mut self, brought: Option<(SourceId, Option<&str>)>) {
+        let Some(search) = &mut self.search else { return };
+        let target = search.target();
+        let found = match (brought, target) {
+            (Some((source, name)), Target::Program { program, .. })
+                if self.setting.control.grammar.grouping == Grouping::Files =>
+            {
+                let program = match (program, name) {
+                    (ProgramKey::Number(number), _) => self.names.numbered(number),
+                    (ProgramKey::File { .. }, Some(name)) => self.names.intern(name),
+                    (ProgramKey::File { name, .. }, None) => name,
+                };
+                Some(Found { source, program, cursor: Cursor::HEAD, enters: false })
+            }
+            (brought, _) => {
+                if search.brought(brought.map(|(source, _)| source)) {
+                    return;
+                }
+                None
+            }
+        };
+        self.calls.remember(target, found);
+        self.search = None;
     }
 
     /// The main program.

@@ -38,6 +38,14 @@ impl Reader {
             }
             view = self.supply.view(source, cursor.offset);
         }
+        self.called = None;
+        if let Some(name) = self.block.call_name {
+            let from = (self.block.start.offset - cursor.offset) as usize + usize::from(name.at);
+            let text = view.characters.get(from..from + usize::from(name.len)).unwrap_or_default();
+            let numbers = self.setting.fitting.options.number_form_call;
+            self.called = self.setting.control.files.as_ref().map(|files| self.names.called(text, files, numbers));
+        }
+        let called = self.called;
         let block = &mut self.block;
         let runs = block.statement.is_some() || block.variables;
         let turned = !self.calls.loops.is_empty() || frame.level > 0;
@@ -57,13 +65,15 @@ impl Reader {
         let from = (block.start.offset - cursor.offset) as usize;
         let text = view.characters.get(from..from + block.len as usize).unwrap_or_default();
         let Setting { control, memory, .. } = &self.setting;
-        self.store.keep(control, &memory.variables, (source, at), block, text).map(Some).map_err(
-            |trouble| match trouble {
-                Trouble::Refused(condition, extent, values) => Text::Refused((condition, extent, values)),
-                // Compiling asks nothing of the machine.
-                Trouble::Needs(_) => Text::End,
-            },
-        )
+        let kept = self.store.keep(control, &memory.variables, (source, at), block, text);
+        if let (Ok(index), Some(_)) = (&kept, called) {
+            self.store.set_called(*index, called);
+        }
+        kept.map(Some).map_err(|trouble| match trouble {
+            Trouble::Refused(condition, extent, values) => Text::Refused((condition, extent, values)),
+            // Compiling asks nothing of the machine.
+            Trouble::Needs(_) => Text::End,
+        })
     }
 
     /// Carries out a kept block: its statement, or its words with their variables' values.

@@ -1,12 +1,13 @@
 //! Macro calls: G65 once, G66 after every move until G67, each with arguments in local variables.
 
 use base::{Alarm, Condition, UnitSystem};
-use dialect::{AddressKind, Meaning};
+use dialect::{AddressKind, CallL0, Meaning};
 use syntax::{Value, Word};
 
 use super::variables::{BLANK, LOCALS};
 use crate::block::{Flow, Reading};
 use crate::jump::{Found, Target};
+use crate::program::ProgramKey;
 use crate::word::Refusal;
 
 /// The local variables that a call fills.
@@ -42,6 +43,9 @@ impl Reading<'_> {
             return Err(self.one_shot_alarm(Condition::MacroNotFitted).into());
         }
         self.words.integer(control, b'N')?;
+        if control.combination.is_some() {
+            self.refuse_other_codes()?;
+        }
         let Some(number) = self.words.count(control, b'P')?.filter(|&number| number > 0) else {
             return Err(self.one_shot_alarm(Condition::CallTargetMissing).into());
         };
@@ -50,15 +54,34 @@ impl Reading<'_> {
             let levels = control.macro_levels as f64;
             return Err(self.one_shot_alarm(Condition::MacroNestingTooDeep).with([levels, 0.0, 0.0]).into());
         }
+        if self.is_in_large() {
+            return Err(self.one_shot_alarm(Condition::CallFromLarge).into());
+        }
         self.take_arguments()?;
-        let found = self.locate(Target::Program { number, from: self.words.place.source }, b'P')?;
+        if repeats == 0 {
+            return Ok(Flow::Next);
+        }
+        let target = Target::Program { program: ProgramKey::Number(number), from: self.words.place.source };
+        let found = self.locate(target, b'P')?;
         Ok(if modal { Flow::ModalCall(found, repeats) } else { Flow::MacroCall(found, repeats) })
+    }
+
+    /// Where codes have classes a macro call is the only G code of its block.
+    fn refuse_other_codes(&self) -> Result<(), Alarm> {
+        let words = self.words.block.words.iter().take(self.word_count);
+        let mut codes = words.filter(|word| word.letter == b'G');
+        match (codes.next(), codes.next()) {
+            (Some(_), Some(other)) => Err(self.words.alarm_at(Condition::AxisWordsClaimedTwice, other)),
+            _ => Ok(()),
+        }
     }
 
     /// L of a call.
     pub fn repeats(&self) -> Result<u32, Alarm> {
         match self.words.count(self.control(), b'L')? {
-            Some(0) => Err(self.words.below(self.control(), b'L', 0, 1)),
+            Some(0) if self.setting.fitting.policies.call_l0 == CallL0::Refuse => {
+                Err(self.words.below(self.control(), b'L', 0, 1))
+            }
             repeats => Ok(repeats.unwrap_or(1)),
         }
     }

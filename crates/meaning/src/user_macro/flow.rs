@@ -132,8 +132,14 @@ impl Reader {
         }
         let Some(statement) = line.statement else { return Ok(Next::Following) };
         let next = match statement {
-            Statement::Assign { target, place, value } => {
-                self.assign(line, target, place, value)?;
+            Statement::Assign { condition, target, place, value } => {
+                let assigns = match condition {
+                    Some(condition) => self.holds(condition)?,
+                    None => true,
+                };
+                if assigns {
+                    self.assign(line, target, place, value)?;
+                }
                 Next::Following
             }
             Statement::Goto { condition, to, place } => match condition {

@@ -11,8 +11,8 @@ use super::trouble::Trouble;
 /// A compiled statement.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Statement {
-    /// `#i = …`
-    Assign { target: Reference, place: Extent, value: Run },
+    /// `#i = …`, `IF [ … ] THEN #i = …`
+    Assign { condition: Option<Run>, target: Reference, place: Extent, value: Run },
     /// `GOTO n`, `IF [ … ] GOTO n`
     Goto { condition: Option<Run>, to: Destination, place: Extent },
     /// `WHILE [ … ] DO m`, `DO m`
@@ -37,16 +37,17 @@ pub(crate) fn compile(
 ) -> Result<Statement, Trouble> {
     let mut scanner = Scanner::new(text, extent);
     let statement = match kind {
-        StatementKind::Assignment => assignment(compiler, &mut scanner)?,
+        StatementKind::Assignment => assignment(compiler, &mut scanner, None)?,
         StatementKind::Goto => goto(compiler, &mut scanner, None)?,
         StatementKind::If => {
             scanner.take_word("IF");
             let condition = compiler.condition(&mut scanner)?;
             let at = scanner.here();
-            if scanner.take_word("THEN") {
-                return Err(Trouble::at(Condition::MacroThen, scanner.since(at)));
+            match (scanner.take_word("THEN"), compiler.control.user_macro.then) {
+                (true, true) => assignment(compiler, &mut scanner, Some(condition))?,
+                (true, false) => return Err(Trouble::at(Condition::MacroThen, scanner.since(at))),
+                (false, _) => goto(compiler, &mut scanner, Some(condition))?,
             }
-            goto(compiler, &mut scanner, Some(condition))?
         }
         StatementKind::While => {
             scanner.take_word("WHILE");
@@ -60,14 +61,14 @@ pub(crate) fn compile(
     if scanner.peek().is_some() { Err(scanner.unreadable()) } else { Ok(statement) }
 }
 
-fn assignment(compiler: &mut Compiler, scanner: &mut Scanner) -> Result<Statement, Trouble> {
+fn assignment(compiler: &mut Compiler, scanner: &mut Scanner, condition: Option<Run>) -> Result<Statement, Trouble> {
     let from = scanner.here();
     let target = compiler.variable(scanner)?;
     let place = scanner.since(from);
     if !scanner.take(b'=') {
         return Err(scanner.unreadable());
     }
-    Ok(Statement::Assign { target, place, value: compiler.expression(scanner)? })
+    Ok(Statement::Assign { condition, target, place, value: compiler.expression(scanner)? })
 }
 
 fn goto(compiler: &mut Compiler, scanner: &mut Scanner, condition: Option<Run>) -> Result<Statement, Trouble> {

@@ -9,6 +9,7 @@ use super::scanner::Scanner;
 use super::statement::{Statement, compile};
 use super::trouble::Trouble;
 use super::variables::Variables;
+use crate::program::CallName;
 use dialect::Control;
 
 /// Blocks kept; when there are more all are forgotten and compiled anew.
@@ -34,6 +35,9 @@ pub(crate) struct Line {
     pub sequence: u32,
     words: (u32, u32),
     pub statement: Option<Statement>,
+    /// The program that it calls by name, and where the name stands.
+    pub called: CallName,
+    call_name: Option<Extent>,
     /// The same as it was recognised.
     recognised: Option<syntax::Statement>,
     pub extent: Extent,
@@ -92,6 +96,13 @@ impl Store {
         }
     }
 
+    /// Notes the program that a kept block calls by name.
+    pub fn set_called(&mut self, index: u32, called: CallName) {
+        if let Some(line) = self.lines.get_mut(index as usize) {
+            line.called = called;
+        }
+    }
+
     /// The kept block that begins where reading stands.
     #[inline]
     pub fn find(&mut self, source: SourceId, at: u64) -> Option<u32> {
@@ -147,6 +158,8 @@ impl Store {
             sequence: sequence_of(block),
             words: (before.1 as u32, self.words.len() as u32),
             statement,
+            called: None,
+            call_name: block.call_name,
             recognised: block.statement,
             extent,
             comment: block.comments.iter().copied().find(|comment| comment.at > extent.at).unwrap_or_default(),
@@ -218,6 +231,7 @@ impl Store {
         block.words.extend_from_slice(self.words.get(line.words.0 as usize..line.words.1 as usize).unwrap_or_default());
         block.skips.clear();
         block.comments.clear();
+        block.call_name = line.call_name;
         block.statement = line.recognised;
         block.faults.clear();
     }

@@ -23,7 +23,7 @@ impl Library for OneText {
         Ok(to == self.0.len())
     }
 
-    fn find_program(&mut self, _: u32) -> Result<Option<SourceId>, LibraryError> {
+    fn find_program(&mut self, _: station::Wanted) -> Result<Option<SourceId>, LibraryError> {
         Ok(None)
     }
 }

@@ -52,6 +52,7 @@ enum Kind {
     CycleStart,
     FeedHold,
     Reset,
+    Key,
     EmergencyStop,
     Release,
     /// Switches, overrides and inputs.
@@ -75,6 +76,8 @@ fn kind(action: &Action) -> Kind {
         Action::CycleStart => Kind::CycleStart,
         Action::FeedHold => Kind::FeedHold,
         Action::Reset => Kind::Reset,
+        // What the key does decides whether it is taken.
+        Action::Key(_) => Kind::Key,
         Action::EmergencyStop => Kind::EmergencyStop,
         Action::Release => Kind::Release,
         Action::Switch(..) | Action::Override(..) | Action::Input(..) => Kind::Turn,
@@ -116,6 +119,7 @@ const TABLE: &[(Kind, [Answer; 6])] = &[
     (Kind::CycleStart,    [OFF,      PRESSED,   ALARM,       GO,          RUNS,      GO]),
     (Kind::FeedHold,      [OFF,      PRESSED,   NOTHING,     NOTHING,     GO,        STANDS]),
     (Kind::Reset,         [OFF,      PRESSED,   GO,          GO,          GO,        GO]),
+    (Kind::Key,           [OFF,      GO,        GO,          GO,          GO,        GO]),
     (Kind::EmergencyStop, [OFF,      PRESSED,   GO,          GO,          GO,        GO]),
     (Kind::Release,       [OFF,      GO,        NOT_PRESSED, NOT_PRESSED, NOT_PRESSED, NOT_PRESSED]),
     (Kind::Turn,          [GO,       GO,        GO,          GO,          GO,        GO]),

@@ -35,7 +35,8 @@ fn call(control: &Control, word: &Word) -> Option<String> {
     match word.letter {
         b'M' => {
             let meaning = control.m_code(u32::try_from(code).ok()?)?.meaning;
-            matches!(meaning, MMeaning::SubprogramCall | MMeaning::SubprogramEnd).then(|| format!("M{code:02}"))
+            matches!(meaning, MMeaning::SubprogramCall | MMeaning::InternalCall | MMeaning::SubprogramEnd)
+                .then(|| format!("M{code:02}"))
         }
         b'G' => {
             let row = control.g_row(code)?;

@@ -1,10 +1,11 @@
 //! The questions of the stages, answered from the library and the operator's buttons.
 
+use base::SourceId;
 use machine::Machine;
-use meaning::{Answer, BarrierKind, Pull, Quantity};
+use meaning::{Answer, BarrierKind, ProgramKey, Pull, Quantity};
 
 use super::{Session, TYPED};
-use crate::library::Library;
+use crate::library::{Library, LibraryError, Wanted};
 
 impl<L: Library> Session<L> {
     /// Pulls the next shape; false if a question had to be answered, a stop was met or there is no more.
@@ -36,8 +37,11 @@ impl<L: Library> Session<L> {
                         }
                     }
                 }
-                BarrierKind::NeedProgram { number } => match self.library.find_program(number) {
-                    Ok(Some(source)) => self.motion.resume(barrier.id, Answer::Program(source)),
+                BarrierKind::NeedProgram { program } => match self.find_program(program) {
+                    Ok(Some(source)) => match self.library.file_name(source) {
+                        Some(name) => self.motion.resume(barrier.id, Answer::File(source, &name)),
+                        None => self.motion.resume(barrier.id, Answer::Program(source)),
+                    },
                     Ok(None) => self.motion.resume(barrier.id, Answer::NotFound),
                     Err(error) => {
                         self.failed = Some(error);
@@ -66,6 +70,18 @@ impl<L: Library> Session<L> {
             };
             debug_assert!(answered.is_ok(), "a barrier is answered in the moment it is met");
         }
+    }
+
+    /// A program that is called, from the library.
+    fn find_program(&mut self, program: ProgramKey) -> Result<Option<SourceId>, LibraryError> {
+        let wanted = match program {
+            ProgramKey::Number(number) => {
+                let files = self.configuration.control.files.as_ref();
+                Wanted::Number(number, files.map_or("", |files| &files.ending))
+            }
+            ProgramKey::File { name, .. } => Wanted::File(self.motion.upstream.upstream.program_name(name)),
+        };
+        self.library.find_program(wanted)
     }
 
     /// What a macro reads of the machine.

@@ -203,10 +203,14 @@ impl<L: Library> Session<L> {
     }
 
     fn end(&mut self, kind: EndKind, place: Place) {
-        let ends = matches!(kind, EndKind::M02 | EndKind::M30 | EndKind::Text);
+        // Blocks typed at the panel that have run out are no program's end; M02 or M30 among them is one.
+        let runs_out = kind == EndKind::Text && !self.is_typed_selected();
+        let ends = matches!(kind, EndKind::M02 | EndKind::M30) || runs_out;
         let reset = ends && self.configuration.control.station.end_resets
             || self.input(kind, self.inputs.eop, &self.configuration.machine.wiring.eop);
-        let rewind = kind == EndKind::M99 || self.input(kind, self.inputs.rwd, &self.configuration.machine.wiring.rwd);
+        let rewind = kind == EndKind::M99
+            || self.rewinds_at(kind)
+            || self.input(kind, self.inputs.rwd, &self.configuration.machine.wiring.rwd);
         let groups = self.interpreter().executing_state().groups;
         let to = *self.machine.position();
         self.tell(place, EventKind::End { kind, rewind, reset, groups, to });
@@ -214,6 +218,16 @@ impl<L: Library> Session<L> {
         self.rewound = rewind;
         if reset {
             self.change_states(Occasion::ProgramEnd, ResetCause::ProgramEnd);
+        }
+    }
+
+    /// Whether the control itself goes back to the program's head at this end.
+    fn rewinds_at(&self, kind: EndKind) -> bool {
+        let station = &self.configuration.control.station;
+        match (kind, station.m02_rewinds) {
+            (EndKind::M30, _) => station.end_rewinds,
+            (EndKind::M02, Some(parameter)) => self.interpreter().fitting().parameter(parameter) > 0.0,
+            _ => false,
         }
     }
 

@@ -10,7 +10,12 @@ use crate::library::Library;
 impl<L: Library> Session<L> {
     /// RESET: whatever runs is dropped, an alarm is cleared, the table of states is applied.
     pub fn reset(&mut self) {
-        self.change_states(Occasion::Reset, ResetCause::Key);
+        self.reset_by(ResetCause::Key);
+    }
+
+    /// As [`Session::reset`], by another key.
+    pub fn reset_by(&mut self, cause: ResetCause) {
+        self.change_states(Occasion::Reset, cause);
         self.forget_typed();
     }
 

@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use base::{Condition, Place, Point, SourceId, Span};
 use dialect::Control;
 use machine::{Event, EventKind, MachineFile, StopCause, builtin_machine, read_machine};
-use station::{Configuration, Library, LibraryError, Session, Setup, Shelf, Step, TYPED};
+use station::{Configuration, Library, LibraryError, Session, Setup, Shelf, Step, TYPED, Wanted};
 use syntax::Cursor;
 
 /// Positions are exact to less than this, mm.
@@ -67,7 +67,8 @@ impl Library for Texts {
         Ok(to == text.len())
     }
 
-    fn find_program(&mut self, number: u32) -> Result<Option<SourceId>, LibraryError> {
+    fn find_program(&mut self, wanted: Wanted) -> Result<Option<SourceId>, LibraryError> {
+        let Wanted::Number(number, _) = wanted else { return Ok(None) };
         Ok(self.programs.iter().find(|(known, _)| *known == number).map(|&(_, source)| source))
     }
 }
@@ -81,7 +82,8 @@ impl Shelf for Texts {
         }
     }
 
-    fn keep_in_memory(&mut self, number: u32, source: SourceId) {
+    fn keep_in_memory(&mut self, program: Wanted, source: SourceId) {
+        let Wanted::Number(number, _) = program else { return };
         self.programs.retain(|(known, _)| *known != number);
         self.programs.push((number, source));
     }

@@ -96,6 +96,7 @@ pub fn check_block(block: &Block, before: Cursor, whole: &[u8]) {
             inside("fault", &fault.extent);
         }
     }
+    block.call_name.iter().for_each(|name| inside("name", name));
     block.statement.iter().for_each(|statement| inside("statement", &statement.extent));
     assert!(block.words.is_sorted_by_key(|word| word.extent.at), "words in their order");
     assert!(block.words.iter().all(|word| word.letter.is_ascii_uppercase()), "letters are capitals");

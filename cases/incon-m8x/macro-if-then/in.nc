@@ -1,0 +1,5 @@
+#1=1
+IF [#1 EQ 1] THEN #2=5
+IF [#1 NE 1] THEN #2=6
+IF[#1EQ1]THEN#3=#2*2
+M30

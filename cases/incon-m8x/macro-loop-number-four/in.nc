@@ -1,0 +1,3 @@
+WHILE [1 EQ 1] DO4
+END4
+M30

@@ -1,0 +1,14 @@
+#1=0
+WHILE [#1 LT 2] DO1
+#2=0
+WHILE [#2 LT 1] DO2
+#3=0
+WHILE [#3 LT 1] DO3
+G91 G00 X1.
+#3=#3+1
+END3
+#2=#2+1
+END2
+#1=#1+1
+END1
+M30
