@@ -51,7 +51,10 @@ fn keeps_its_order(control: &Control, items: &[Item]) -> bool {
     let first = items.iter().position(is_word).unwrap_or(0);
     let last = items.iter().rposition(is_word).map_or(0, |last| last + 1);
     let mixed = items.get(first..last).unwrap_or_default().iter().any(|item| !is_word(item));
-    mixed || items.iter().any(|item| matches!(item, Item::Name(_)) || leads(control, item))
+    // An O word begins a program, or is refused, by its place.
+    let words = || items.iter().filter(|item| matches!(item, Item::Word { .. }));
+    let late_label = words().skip(1).any(|item| matches!(item, Item::Word { letter: b'O', .. }));
+    mixed || late_label || items.iter().any(|item| matches!(item, Item::Name(_)) || leads(control, item))
 }
 
 /// True for codes whose words are read in their order, or are written before the axes' by custom, and for codes that

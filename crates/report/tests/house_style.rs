@@ -135,6 +135,7 @@ fn what_cannot_be_numbered_without_a_guess_is_refused() {
     assert_eq!(why("O1\nN5\nN5\nM99 P5\n"), "line 4: block N5, to which it leads, stands twice in its program");
     assert_eq!(why("O1\nM99 P5\n"), "line 2: there is no block N5 to which it could lead");
     assert_eq!(why("O1\nG01 X..1\n"), "line 2: the block cannot be read, and its jumps neither");
+    assert_eq!(why("O1\nN0 G04 P1\nM30\n"), "line 2: the block's number is not one of N1 to N99999");
     let two = "O1\nM98 P3\nN9 M98 P2\nM30\nO2\nG04 P1\nM98 P3\nN9\nM99\nO3\nM99 P9\n";
     assert_eq!(why(two), "line 11: N9 gets different numbers in the programs that call this one");
 }

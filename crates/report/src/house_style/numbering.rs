@@ -41,7 +41,8 @@ pub(super) fn renumber(blocks: &mut [Parsed], control: &Control, numbering: Numb
     let mut names: Vec<Option<u32>> = vec![None; programs];
     let mut numbers: Vec<Option<u32>> = Vec::with_capacity(blocks.len());
     let mut next = vec![numbering.start; programs];
-    let highest = control.address(b'N').map_or(u32::MAX, |address| u32::try_from(address.range[1]).unwrap_or(u32::MAX));
+    let range = control.address(b'N').map_or([0, i64::from(u32::MAX)], |address| address.range);
+    let [lowest, highest] = range.map(|bound| u32::try_from(bound).unwrap_or(u32::MAX));
     for block in blocks.iter() {
         let Kind::Items { items, .. } = &block.kind else {
             if matches!(block.kind, Kind::Raw(_)) {
@@ -59,6 +60,11 @@ pub(super) fn renumber(blocks: &mut [Parsed], control: &Control, numbering: Numb
         };
         if !items.iter().all(fixed) {
             return Err(format!("line {}: the block's number is not a plain one", block.line));
+        }
+        let has_number = items.iter().any(|item| matches!(item, Item::Word { letter: b'N', .. }));
+        if has_number && !whole(items, b'N').is_some_and(|number| (lowest..=highest).contains(&number)) {
+            // The control refuses the block for its number: with another it would be carried out.
+            return Err(format!("line {}: the block's number is not one of N{lowest} to N{highest}", block.line));
         }
         if let Some(name) = whole(items, b'O') {
             names[block.program].get_or_insert(name);
