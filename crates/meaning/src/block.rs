@@ -428,15 +428,17 @@ impl Reading<'_> {
             astray = astray.or(if in_base { by_length.unwrap_or_default() } else { self.setting.facts.all() });
         }
         let rests = [roles.distance, roles.work, roles.units, roles.cycle, roles.scaling.unwrap_or(roles.work)];
+        let turns = [roles.rotation, roles.polar].iter().flatten().any(|&group| unknown.group(group));
         let named = self.now_known.or(absolute);
-        if rests.iter().any(|&group| unknown.group(group)) {
+        if turns || rests.iter().any(|&group| unknown.group(group)) {
             unknown.axes = unknown.axes.or(named);
         } else {
             let at_reference =
                 matches!(self.one_shot, Some((Meaning::ReferenceReturn | Meaning::OtherReferenceReturn, _)));
             let known = if at_reference { self.now_known } else { absolute };
             let known = if at_reference { known } else { known.without(astray) };
-            unknown.axes = unknown.axes.without(known).or(absolute.and(astray));
+            let half = self.half_turned(absolute, unknown.axes);
+            unknown.axes = unknown.axes.without(known.without(half)).or(absolute.and(astray)).or(half);
         }
         self.next.unknown = unknown;
     }

@@ -135,6 +135,18 @@ impl Reading<'_> {
         Ok(taken)
     }
 
+    /// The axes of a turned plane of which only one is named, while the place of the other is unknown: its coordinate
+    /// decides where both go.
+    pub fn half_turned(&self, named: AxisSet, unknown: AxisSet) -> AxisSet {
+        let rotation = &self.next.transform.rotation;
+        if !rotation.on {
+            return AxisSet::NONE;
+        }
+        let plane = rotation.plane();
+        let (there, missing) = (plane.and(named), plane.without(named));
+        if there.is_empty() || missing.and(unknown).is_empty() { AxisSet::NONE } else { plane }
+    }
+
     /// The number of the code in force in a group, for a message.
     pub fn in_force_as(&self, group: Option<usize>) -> f64 {
         let row = group.map_or(dialect::NO_CODE, |group| self.next.groups.0[group]);

@@ -111,7 +111,7 @@ impl Reading<'_> {
         }
         let mut moved = named.or(polar);
         let rotation = self.next.transform.rotation;
-        let turned = rotation.axes.iter().fold(AxisSet::NONE, |set, &axis| set.or(AxisSet::only(usize::from(axis))));
+        let turned = rotation.plane();
         if rotation.on && !moved.and(turned).is_empty() {
             moved = moved.or(turned);
         }

@@ -32,6 +32,13 @@ pub struct Rotation {
     pub degrees: f64,
 }
 
+impl Rotation {
+    /// The axes of its plane.
+    pub fn plane(&self) -> AxisSet {
+        self.axes.iter().fold(AxisSet::NONE, |set, &axis| set.or(AxisSet::only(usize::from(axis))))
+    }
+}
+
 /// Scale, mirror and rotation as they are in force.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Transform {

@@ -217,7 +217,8 @@ fn of_one_size() -> impl Strategy<Value = [i64; 3]> {
 }
 
 fn of_any_size() -> impl Strategy<Value = [i64; 3]> {
-    [1i64..4000, 1i64..4000, -4000i64..-1]
+    let ratio = || (1i64..4000, any::<bool>()).prop_map(|(size, over)| if over { -size } else { size });
+    [ratio(), ratio(), ratio()]
 }
 
 fn holds(map: Map, pieces: &[Piece], turned_first: bool) -> Result<(), TestCaseError> {

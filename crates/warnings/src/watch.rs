@@ -156,7 +156,7 @@ impl Watch {
         let control = interpreter.control();
         if self.points.count(command) {
             let inch = control.in_force(&command.after.groups, control.roles.units) == Some(Meaning::Inch);
-            self.points.keep(command, inch);
+            self.points.keep(command, control, inch);
         }
         if self.in_work_system {
             self.g92.anchor(command.absolute);

@@ -21,6 +21,11 @@ impl Interpreter {
         self.reader.setting.programmed(state, machine)
     }
 
+    /// The coordinates programmed last, the axes standing there (counts).
+    pub fn last_programmed(&self, state: &State, machine: &Point) -> Point {
+        self.reader.setting.last_programmed(state, machine)
+    }
+
     /// Where program zero lies in a state, offsets included: mm and degrees, machine coordinates.
     pub fn program_zero(&self, state: &State) -> Point {
         let setting = &self.reader.setting;

@@ -188,5 +188,5 @@ impl Watch {
 
 /// A place in the coordinates of a program.
 fn programmed<L: Library>(session: &Session<L>, state: &State, machine: &Point) -> Point {
-    session.interpreter().programmed(state, &machine.map(|mm| mm * 1e6)).map(|counts| counts / 1e6)
+    session.interpreter().last_programmed(state, &machine.map(|mm| mm * 1e6)).map(|counts| counts / 1e6)
 }

@@ -6,14 +6,14 @@
 //!
 //! Silent in programs that write most coordinates without a point, for zero, and where only one reading makes sense:
 //! with a point the number would lead further than the machine's longest axis travels (`Q6000` for a peck of 6 mm).
-//! Not looked at: the X of a dwell, the arguments of macro calls (a count is as likely as a length), the Q of M98 and G10.
+//! Not looked at: the X of a dwell, ratios of scaling, the arguments of macro calls (a count is as likely as a length), the Q of M98 and G10.
 //! The program as a whole decides, so the findings come at its end; at most 4096 places are kept.
 
 use std::collections::BTreeSet;
 
 use base::{Place, SourceId};
 use dialect::{AddressKind, Control, Fitting, Meaning};
-use meaning::{Command, MachineFacts, letter_bit};
+use meaning::{Command, MachineFacts, Wording, letter_bit};
 
 use crate::finding::{At, Finding, Found, Readings};
 use crate::rules::Rule;
@@ -32,6 +32,10 @@ struct Candidate {
 pub(crate) struct IntegerCoordinate {
     coordinates: u32,
     rotary: u32,
+    /// Group and letters of the ratios of scaling, which are no coordinates.
+    ratios: Option<(usize, u32)>,
+    /// Group and letter of the angle of rotation.
+    angle: Option<(usize, u32)>,
     pointed: u64,
     plain: u64,
     coarse: i64,
@@ -48,11 +52,18 @@ impl IntegerCoordinate {
                 coordinates |= letter_bit(letter);
             }
         }
+        let roles = &control.roles;
+        let ratios = roles
+            .scaling
+            .zip(control.scaling.as_ref().and_then(|rule| rule.ratios))
+            .map(|(group, letters)| (group, letters.iter().fold(0, |set, &letter| set | letter_bit(letter))));
         let coarse = if fitting.options.input_x10 { 10 } else { 1 };
         let rotary = facts.axes.iter().filter(|axis| axis.rotary).fold(0, |set, axis| set | letter_bit(axis.letter));
         IntegerCoordinate {
             coordinates,
             rotary,
+            ratios,
+            angle: roles.rotation.zip(control.rotation).map(|(group, rule)| (group, letter_bit(rule.angle))),
             pointed: 0,
             plain: 0,
             coarse,
@@ -65,8 +76,9 @@ impl IntegerCoordinate {
     #[inline]
     pub fn count(&mut self, command: &Command) -> bool {
         let wording = &command.wording;
-        self.pointed += u64::from((wording.pointed & self.coordinates).count_ones());
-        let plain = wording.plain & self.coordinates;
+        let coordinates = self.coordinates_in(wording);
+        self.pointed += u64::from((wording.pointed & coordinates).count_ones());
+        let plain = wording.plain & coordinates;
         if plain == 0 {
             return false;
         }
@@ -74,10 +86,33 @@ impl IntegerCoordinate {
         self.candidates.len() < MOST_PLACES
     }
 
+    /// The letters that are coordinates in a block.
+    fn coordinates_in(&self, wording: &Wording) -> u32 {
+        match self.ratios {
+            Some((group, letters)) if wording.writes(group) => self.coordinates & !letters,
+            _ => self.coordinates,
+        }
+    }
+
+    /// The letters that are angles in a block, beside those of rotary axes.
+    fn angles_in(&self, command: &Command, control: &Control) -> u32 {
+        let turned = match self.angle {
+            Some((group, letter)) if command.wording.writes(group) => letter,
+            _ => 0,
+        };
+        let polar = match control.in_force(&command.after.groups, control.roles.plane) {
+            _ if !command.after.polar.on => return turned,
+            Some(Meaning::PlaneZx) => b'X',
+            Some(Meaning::PlaneYz) => b'Z',
+            _ => b'Y',
+        };
+        turned | letter_bit(polar)
+    }
+
     /// Keeps a block with a coordinate without a point.
-    pub fn keep(&mut self, command: &Command, inch: bool) {
+    pub fn keep(&mut self, command: &Command, control: &Control, inch: bool) {
         let wording = &command.wording;
-        let mut letters = wording.plain & self.coordinates;
+        let mut letters = wording.plain & self.coordinates_in(wording);
         match wording.one_shot {
             Some(Meaning::Dwell | Meaning::MacroCall | Meaning::ModalMacroCall) => return,
             // In the body of a macro, where the option does not act, it cannot be told from here.
@@ -93,7 +128,8 @@ impl IntegerCoordinate {
         let letter = b'A' + last as u8;
         let is_pattern =
             matches!(wording.one_shot, Some(Meaning::BoltCircle | Meaning::ArcPattern | Meaning::LinePattern));
-        let turns = self.rotary & letter_bit(letter) != 0 || is_pattern && matches!(letter, b'J' | b'K');
+        let angles = self.rotary | self.angles_in(command, control);
+        let turns = angles & letter_bit(letter) != 0 || is_pattern && matches!(letter, b'J' | b'K');
         let readings = match (turns, inch) {
             (true, _) => Readings::Degrees,
             (false, true) => Readings::Inches,

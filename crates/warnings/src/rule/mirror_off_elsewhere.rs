@@ -24,7 +24,7 @@ pub(crate) fn look(look: &Look, found: &mut Found) {
     let in_distances = look.in_force(look.control.roles.distance) == Some(Meaning::Incremental);
     let (rotation, still_turned) = (before.transform.rotation, after.transform.rotation.on);
     let unturned = match rotation.on && !still_turned {
-        true => rotation.axes.iter().fold(AxisSet::NONE, |set, &axis| set.or(AxisSet::only(usize::from(axis)))),
+        true => rotation.plane(),
         false => AxisSet::NONE,
     };
     let axes = if in_distances { unmirrored.or(unscaled).or(unturned) } else { unmirrored };
