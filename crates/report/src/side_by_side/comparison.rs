@@ -179,10 +179,8 @@ pub fn compare<L: Library>(
     mut text: impl FnMut(&mut L, SourceId, u64, usize) -> Vec<u8>,
 ) -> Result<Comparison, LibraryError> {
     let configurations = [first.configuration().clone(), second.configuration().clone()];
-    let sides = [0, 1].map(|side: usize| Side {
-        control: &configurations[side].control,
-        axes: &configurations[side].machine.axes,
-    });
+    let sides = [0, 1]
+        .map(|side: usize| Side { control: &configurations[side].control, axes: &configurations[side].machine.axes });
     let likeness = Likeness::new(sides, limits.tolerance);
     let mut runs = [Run::begin(first, limits.pieces), Run::begin(second, limits.pieces)];
     let mut alignment = Alignment::new(limits.window);
