@@ -156,7 +156,7 @@ impl Expansion {
         match (&command.body, phase) {
             (Body::Rapid { to, kind }, 0) => Some(Act::Rapid { to: mm(to), kind: *kind }),
             (Body::Line { to, feed }, 0) => Some(Act::Line { to: mm(to), feed: *feed }),
-            (Body::Arc { foot: Some(_), .. }, _) => return closed_arc(&command.body, phase, around),
+            (Body::Arc { foot: Some(_), .. }, _) => closed_arc(&command.body, phase, around),
             (Body::Arc { to, center, axes, plane, clockwise, full_circle, feed, .. }, 0) => Some(Act::Arc {
                 arc: ArcMove {
                     to: mm(to),
