@@ -246,6 +246,9 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         None => None,
     };
     let mut functions = head.functions.functions;
+    if let Some(cycle) = functions::without_steps(&functions, &g_codes) {
+        return Err(refuse(files, "control.toml", format!("[cycle.steps] does not say what `{cycle}` does")));
+    }
     functions.reference.before_start =
         head.functions.before_start.as_deref().map(|name| parameter_index(files, &parameters, name)).transpose()?;
     let mirror_setting = match &head.mirror_setting {

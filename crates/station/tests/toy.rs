@@ -30,7 +30,7 @@ increments = { metric_mm = 0.01, inch_in = 0.001, rotary_deg = 0.01 }
 read_ahead = { blocks = 1, compensation = 1, buffering = 1 }
 nesting = { subprograms = 1, macros = 1 }
 offsets = { table = "common", highest = 9, limit_mm = 99.0 }
-cycle = { spindle_forward = 43, spindle_reverse = 44, spindle_stop = 45, spindle_orient = 46 }
+cycle = { spindle_forward = 43, spindle_reverse = 44, spindle_stop = 45, spindle_orient = 46, repeats = ["L"], steps = { drill = ["feed bottom", "rapid end"] } }
 combination = { most_codes = 2, most_states = 1, most_states_with_movement = 1 }
 "#;
 

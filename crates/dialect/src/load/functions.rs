@@ -4,6 +4,7 @@ use data::Table;
 
 use crate::function::{CycleStep, CycleSteps, CycleTable, DataKinds, Functions, MOST_STEPS, ReferenceRules, WorkRules};
 use crate::meaning::Meaning;
+use crate::row::{Division, GCode};
 
 /// The functions, the parameter of the reference points still by its name.
 pub(super) struct FunctionsDraft {
@@ -39,7 +40,6 @@ pub(super) fn functions(root: &mut Table) -> FunctionsDraft {
 fn cycle(table: &mut Table) -> ([u32; 4], CycleTable) {
     let codes = ["spindle_forward", "spindle_reverse", "spindle_stop", "spindle_orient"]
         .map(|key| super::small(table.integer(key)) as u32);
-    table.require("steps");
     let steps = table.table("steps", |steps| {
         let cycles = Meaning::TABLE.iter().filter(|(_, meaning)| meaning.is_cycle());
         cycles.filter_map(|&(name, cycle)| Some((cycle, steps_of(steps, name)?))).collect()
@@ -50,6 +50,13 @@ fn cycle(table: &mut Table) -> ([u32; 4], CycleTable) {
         shifts_by_ij: table.choice("shift", &[("Q", false), ("Q or I J", true)]).unwrap_or(false),
     };
     (codes, table)
+}
+
+/// A cycle of the control's codes whose steps are not listed.
+pub(super) fn without_steps(functions: &Functions, codes: &[GCode]) -> Option<&'static str> {
+    let own = codes.iter().filter(|code| code.division != Division::Sibling && code.meaning.is_cycle());
+    let bare = own.map(|code| code.meaning).find(|cycle| functions.cycle.steps_of(*cycle) == CycleSteps::default())?;
+    Meaning::TABLE.iter().find(|(_, meaning)| *meaning == bare).map(|(name, _)| *name)
 }
 
 fn steps_of(table: &mut Table, cycle: &'static str) -> Option<CycleSteps> {
