@@ -97,7 +97,7 @@ impl Control {
     pub fn rewrite(&self, condition: Condition, refused: &Refused) -> Option<Rewritten> {
         let fix = self.fix_of(condition)?;
         let Refused { block, text, motion } = *refused;
-        if block.statement.is_some() || !block.faults.is_empty() || block.rewind {
+        if block.statement.is_some() || block.call_name.is_some() || !block.faults.is_empty() || block.rewind {
             return None;
         }
         let words = self.words_of(block, text)?;
