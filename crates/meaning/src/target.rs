@@ -22,6 +22,7 @@ struct Together {
 
 impl Reading<'_> {
     /// Where an axis' word leads by itself, machine coordinates.
+    #[inline]
     fn target(&mut self, axis: usize) -> Result<f64, Alarm> {
         self.length_axis_placed(axis);
         let (value, minus) = self.axis_word(axis)?;
@@ -36,6 +37,7 @@ impl Reading<'_> {
     }
 
     /// What of a displacement by G45 to G48 an absolute word keeps.
+    #[inline]
     fn displacement_kept(&self, axis: usize) -> f64 {
         match self.setting.fitting.policies.position_offset_absolute {
             PositionOffsetAbsolute::Dropped => 0.0,
@@ -44,6 +46,7 @@ impl Reading<'_> {
     }
 
     /// A target lengthened or shortened by the block's G45 to G48.
+    #[inline]
     fn position_offset_on(&mut self, axis: usize, target: f64, minus_zero: bool) -> f64 {
         let now = self.next.machine[axis];
         if let Some(offset) = self.position_offset {
@@ -58,17 +61,20 @@ impl Reading<'_> {
     }
 
     /// What an incremental word of the length axis has to make up for.
+    #[inline]
     fn length_change_on(&self, axis: usize) -> f64 {
         if Some(axis) == self.setting.length_axis { self.length_change } else { 0.0 }
     }
 
     /// True if a word may lead another axis than its own, or counts from elsewhere than where its axis stands.
+    #[inline]
     pub fn goes_together(&self) -> bool {
         let transform = &self.next.transform;
         transform.rotation.on || self.next.polar.on || !transform.apart.is_empty()
     }
 
     /// These axes at the targets of their words; every axis' target and the axes that move.
+    #[inline]
     pub fn targets_of(&mut self, named: AxisSet) -> Result<(Point, AxisSet), Alarm> {
         if self.goes_together() {
             let together = self.targets_together(named)?;
