@@ -55,6 +55,8 @@ pub struct Finding {
     pub readings: Option<Readings>,
     /// How many least increments a number without a point counts each: 10 with the option for it.
     pub coarse: i64,
+    /// It is the value itself, by a parameter.
+    pub whole_units: bool,
 }
 
 /// In what the number of a word counts.
@@ -87,6 +89,7 @@ impl Finding {
             beside: None,
             readings: None,
             coarse: 1,
+            whole_units: false,
         }
     }
 

@@ -16,7 +16,7 @@ use tape::Codes;
 use crate::blocks::Blocks;
 use crate::finding::Finding;
 use crate::rule::unreachable::Unreachable;
-use crate::rule::unused_subprogram::UnusedSubprogram;
+use crate::rule::unused_subprogram::{UnusedSection, UnusedSubprogram};
 use crate::rule::{allow_unknown, memory_size};
 
 /// Jumps and calls that are kept; a text with more is not judged.
@@ -165,6 +165,7 @@ fn judge<L: Library>(
 ) -> Result<Vec<Finding>, LibraryError> {
     let mut found = Vec::new();
     let (mut unreachable, mut unused) = (Unreachable::default(), UnusedSubprogram::default());
+    let mut internal = UnusedSection::new(control.m_of(MMeaning::InternalCall).is_some());
     let mut begun = false;
     while blocks.next()? && found.len() < MOST_FOUND {
         let block = &blocks.block;
@@ -188,8 +189,10 @@ fn judge<L: Library>(
         if !unreachable.is_dead() {
             unused.look(&facts);
         }
-        found.extend(unreachable.look(&facts, place, targets));
+        found.extend(unreachable.look(&facts, place, targets).and_then(|finding| internal.begin(&facts, finding)));
+        found.extend(internal.look(&facts, unreachable.is_dead()));
     }
+    found.extend(internal.end());
     found.extend(unused.end(targets));
     Ok(found)
 }

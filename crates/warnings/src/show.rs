@@ -28,27 +28,27 @@ impl Finding {
         let span = word.map_or(self.place.block, |word| word.extent.span(self.place.block.start));
         let mut values = self.values.clone();
         if let Some(readings) = self.readings {
-            values.extend(two_readings(control, word?, readings, self.coarse, widest)?);
+            values.extend(two_readings(control, word?, readings, (self.coarse, self.whole_units), widest)?);
         }
         let written = text_of(bytes, Span { start: span.start - self.place.block.start, len: span.len });
         values.push(("word", written));
-        let row = control.warnings.iter().find(|row| row.name == self.rule.name() && row.shade == self.shade);
-        let fill = |text: Option<&str>| fill(text.unwrap_or(NO_SENTENCE), &values);
+        let sentences = control.warning(self.rule.name(), self.shade).unwrap_or([NO_SENTENCE; 3]);
+        let fill = |text: &str| fill(text, &values);
         let labels = self.beside.iter().map(|beside| Label {
             place: beside.place,
             span: beside.place.block,
             text: beside.text.to_owned(),
         });
         let label = match self.readings {
-            Some(_) => fill(Some("{here}, not {other}")),
+            Some(_) => fill("{here}, not {other}"),
             None => self.label.clone(),
         };
         Some(Diagnostic {
             code: self.rule.name(),
             severity,
-            message: fill(row.map(|row| row.what.as_str())),
-            why: fill(row.map(|row| row.why.as_str())),
-            help: fill(row.map(|row| row.help.as_str())),
+            message: fill(sentences[0]),
+            why: fill(sentences[1]),
+            help: fill(sentences[2]),
             alarm: None,
             place: self.place,
             span,
@@ -102,7 +102,7 @@ fn allows(block: &Block, bytes: &[u8], rule: Rule) -> bool {
 
 /// What a comment allows, as it writes it, if it is one that does.
 pub(crate) fn names_allowed(comment: &str) -> Option<&str> {
-    let inner = comment.trim_start_matches(['(', ';']).trim_end_matches(')').trim();
+    let inner = comment.trim_matches(|c: char| c.is_whitespace() || "(;)".contains(c));
     let (key, names) = inner.split_once(':')?;
     key.trim().eq_ignore_ascii_case("allow").then_some(names)
 }
@@ -112,12 +112,12 @@ fn two_readings(
     control: &Control,
     word: &Word,
     readings: Readings,
-    coarse: i64,
+    (coarse, whole_units): (i64, bool),
     widest: f64,
 ) -> Option<[(&'static str, String); 2]> {
     let (Value::Number(written), Some(address)) = (word.value, control.address(word.letter)) else { return None };
     let whole = written.integer()? as f64;
-    let (here, unit, per_unit, limit) = match readings {
+    let (counted, unit, per_unit, limit) = match readings {
         Readings::Millimetres => {
             (control.length(address, written, UnitSystem::Metric, coarse).ok()? as f64 / 1e6, "mm", 1.0, widest)
         }
@@ -126,11 +126,12 @@ fn two_readings(
         }
         Readings::Degrees => (control.angle(address, written).ok()? as f64 / 1e6, "deg", 1.0, 360.0),
     };
-    if whole.abs() * per_unit > limit {
+    if !whole_units && whole.abs() * per_unit > limit {
         return None;
     }
-    let here = if unit == "in" { plain_inches(here) } else { number(here) };
-    Some([("here", format!("{here} {unit}")), ("other", format!("{} {unit}", plain(whole * 1e6)))])
+    let counted = if unit == "in" { plain_inches(counted) } else { number(counted) };
+    let (here, other) = (format!("{counted} {unit}"), format!("{} {unit}", plain(whole * 1e6)));
+    Some(if whole_units { [("here", other), ("other", here)] } else { [("here", here), ("other", other)] })
 }
 
 /// Inches have a fourth decimal.

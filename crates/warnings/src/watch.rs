@@ -94,11 +94,11 @@ impl Watch {
             EventKind::BlockDone if event.place.line > 0 => self.block(interpreter),
             EventKind::Rapid { from, to, .. } => self.rapid(from, to, interpreter),
             EventKind::Alarm(_) => self.refused = true,
-            EventKind::End { kind, groups, .. } => {
+            EventKind::End { kind, groups, reset, .. } => {
                 let look = look(interpreter);
                 // What a refused block has left unknown is not judged.
                 if look.after().unknown.is_nothing() {
-                    self.ends.end(&look, groups, *kind, &mut self.found);
+                    self.ends.end(&look, groups, (*kind, *reset), &mut self.found);
                     self.endless.end(&look, *kind, &mut self.found);
                 }
                 self.inherited.end(*kind, &mut self.found);

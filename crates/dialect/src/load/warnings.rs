@@ -21,7 +21,9 @@ pub(super) fn rows(root: &mut Table) -> Vec<WarningRow> {
 pub(super) fn own(root: &mut Table) -> Vec<OwnWarning> {
     root.tables("warning", |row| OwnWarning {
         name: row.required_string("name"),
+        shade: row.string("shade").unwrap_or_default(),
         text: row.required_string("text"),
+        help: row.string("help"),
         origin: origin(row),
     })
 }

@@ -6,10 +6,11 @@
 //! Do: cancel before the end: `G49` in the block of a Z word or after the return to the reference point, `G40` with
 //! the last move away from the work.
 //!
-//! Silent for a length offset whose value is zero, and where the text merely stops without an end.
+//! Silent for a length offset whose value is zero, for what the control itself cancels at this end, and where the text
+//! merely stops without an end.
 
 use base::Place;
-use dialect::{GroupCodes, Meaning};
+use dialect::{GroupCodes, Meaning, Occasion};
 use meaning::{Command, EndKind};
 
 use crate::finding::{At, Finding, Found};
@@ -37,14 +38,19 @@ impl EndsWithOffset {
     }
 
     /// The program ends with these codes in force.
-    pub fn end(&self, look: &Look, groups: &GroupCodes, kind: EndKind, found: &mut Found) {
+    pub fn end(&self, look: &Look, groups: &GroupCodes, (kind, reset): (EndKind, bool), found: &mut Found) {
         if kind == EndKind::Text || !found.is_new(Rule::EndsWithOffset, &look.command.place) {
             return;
         }
         let roles = look.control.roles;
         let command = look.command;
         let length = look.after().length;
-        let in_force = |group: usize| look.control.in_force(groups, group);
+        // What the machine builder's wiring may do is another thing on the next machine.
+        let left = match reset && look.control.station.end_resets {
+            true => look.fitting.groups_after(look.control, Occasion::ProgramEnd, *groups),
+            false => *groups,
+        };
+        let in_force = |group: usize| look.control.in_force(&left, group);
         if matches!(in_force(roles.length), Some(Meaning::LengthPlus | Meaning::LengthMinus)) && length != 0.0 {
             let name = look.control.g_name(groups.0[roles.length]);
             let make = finding(command, "length", name, self.length).with("amount", plain(length));

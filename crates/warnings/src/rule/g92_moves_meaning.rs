@@ -59,15 +59,19 @@ impl G92MovesMeaning {
         // The block may select a system itself; it acts before the G92.
         let written = look.command.wording.writes(work);
         let in_system = look.control.in_force(&look.before.groups, work) == Some(Meaning::WorkSystem);
-        if in_system && !written {
-            let all = look.fitting.policies.g92_system == G92System::All;
+        // Where there are work systems only, G92 shifts them all: what matters first is where the axes stand.
+        let only_systems = look.control.base_system.is_none();
+        let is_loose = look.named().any(|axis| !self.anchored.has(axis));
+        if in_system && !written && !(only_systems && is_loose && !self.said) {
+            let all = look.control.functions.work.shifts_all || look.fitting.policies.g92_system == G92System::All;
             let system = look.control.g_name(before);
             found.say(Rule::G92MovesMeaning, place, || {
                 let does = match all {
                     true => "shifts every work system".to_owned(),
                     false => format!("sets the base system and selects it: {}", look.code_name(work)),
                 };
-                Finding::new(Rule::G92MovesMeaning, "system", look.command, At::G(code))
+                let shade = if only_systems { "shift" } else { "system" };
+                Finding::new(Rule::G92MovesMeaning, shade, look.command, At::G(code))
                     .labelled(format!("{system} was in force"))
                     .with("code", name)
                     .with("system", system)
@@ -75,8 +79,7 @@ impl G92MovesMeaning {
             });
             return;
         }
-        let loose = |&axis: &usize| !self.anchored.has(axis);
-        if self.said || !look.named().any(|axis| loose(&axis)) {
+        if self.said || !is_loose {
             return;
         }
         self.said = true;

@@ -200,7 +200,8 @@ fn uses(look: &Look) -> u32 {
     if command.cuts() {
         used |= FEED_MODE | F;
     }
-    if command.is_arc() || command.side() != Side::Off {
+    let turned = look.before.polar.on || look.before.transform.rotation.on;
+    if command.is_arc() || command.side() != Side::Off || turned && names_axes {
         used |= PLANE;
     }
     if cycle.is_some_and(|levels| levels.from != levels.r) {

@@ -4,16 +4,20 @@
 //! Why: the axis stops a thousandth of the way along, and whatever comes next starts from there.
 //! Do: write the point, `Y400.`; if increments are meant, write 0.400 so that the next reader sees it.
 //!
+//! Where a parameter makes an integer the value itself it means what it says here, and a thousandth of it wherever
+//! integers count: then that is said.
+//!
 //! Silent in programs that write most coordinates without a point, for zero, and where only one reading makes sense:
 //! with a point the number would lead further than the machine's longest axis travels (`Q6000` for a peck of 6 mm).
-//! Not looked at: the X of a dwell, ratios of scaling, the arguments of macro calls (a count is as likely as a length), the Q of M98 and G10.
+//! Not looked at: the X of a dwell, ratios of scaling, how often a hole is repeated, the arguments of macro calls (a count
+//! is as likely as a length), the Q of M98 and G10.
 //! The program as a whole decides, so the findings come at its end; at most 4096 places are kept.
 
 use std::collections::BTreeSet;
 
 use base::{Place, SourceId};
 use dialect::{AddressKind, Control, Fitting, Meaning};
-use meaning::{Command, MachineFacts, Wording, letter_bit};
+use meaning::{Command, MachineFacts, letter_bit};
 
 use crate::finding::{At, Finding, Found, Readings};
 use crate::rules::Rule;
@@ -36,6 +40,9 @@ pub(crate) struct IntegerCoordinate {
     ratios: Option<(usize, u32)>,
     /// Group and letter of the angle of rotation.
     angle: Option<(usize, u32)>,
+    /// Letters that repeat a hole.
+    repeats: u32,
+    whole_units: bool,
     pointed: u64,
     plain: u64,
     coarse: i64,
@@ -64,6 +71,8 @@ impl IntegerCoordinate {
             rotary,
             ratios,
             angle: roles.rotation.zip(control.rotation).map(|(group, rule)| (group, letter_bit(rule.angle))),
+            repeats: control.functions.cycle.repeats.iter().fold(0, |set, &letter| set | letter_bit(letter)),
+            whole_units: fitting.parameter_if_any(control.whole_units) != 0.0,
             pointed: 0,
             plain: 0,
             coarse,
@@ -76,7 +85,7 @@ impl IntegerCoordinate {
     #[inline]
     pub fn count(&mut self, command: &Command) -> bool {
         let wording = &command.wording;
-        let coordinates = self.coordinates_in(wording);
+        let coordinates = self.coordinates_in(command);
         self.pointed += u64::from((wording.pointed & coordinates).count_ones());
         let plain = wording.plain & coordinates;
         if plain == 0 {
@@ -87,11 +96,14 @@ impl IntegerCoordinate {
     }
 
     /// The letters that are coordinates in a block.
-    fn coordinates_in(&self, wording: &Wording) -> u32 {
-        match self.ratios {
+    fn coordinates_in(&self, command: &Command) -> u32 {
+        let wording = &command.wording;
+        let coordinates = match self.ratios {
             Some((group, letters)) if wording.writes(group) => self.coordinates & !letters,
             _ => self.coordinates,
-        }
+        };
+        let repeats = wording.letters & coordinates & self.repeats != 0 && command.levels().is_some();
+        if repeats { coordinates & !self.repeats } else { coordinates }
     }
 
     /// The letters that are angles in a block, beside those of rotary axes.
@@ -112,7 +124,7 @@ impl IntegerCoordinate {
     /// Keeps a block with a coordinate without a point.
     pub fn keep(&mut self, command: &Command, control: &Control, inch: bool) {
         let wording = &command.wording;
-        let mut letters = wording.plain & self.coordinates_in(wording);
+        let mut letters = wording.plain & self.coordinates_in(command);
         match wording.one_shot {
             Some(Meaning::Dwell | Meaning::MacroCall | Meaning::ModalMacroCall) => return,
             // In the body of a macro, where the option does not act, it cannot be told from here.
@@ -141,11 +153,12 @@ impl IntegerCoordinate {
     /// The program has ended: is a number without a point the exception in it?
     pub fn end(&mut self, found: &mut Found) {
         if self.pointed >= self.plain {
-            let coarse = self.coarse;
+            let (coarse, whole_units) = (self.coarse, self.whole_units);
+            let shade = if whole_units { "whole" } else { "" };
             for Candidate { order, place, letter, readings } in self.candidates.drain(..) {
                 found.say(Rule::IntegerCoordinate, &place, || {
-                    let finding = Finding::at(Rule::IntegerCoordinate, "", order, place, At::Letter(letter));
-                    Finding { readings: Some(readings), coarse, ..finding }
+                    let finding = Finding::at(Rule::IntegerCoordinate, shade, order, place, At::Letter(letter));
+                    Finding { readings: Some(readings), coarse, whole_units, ..finding }
                 });
             }
         }

@@ -5,6 +5,8 @@
 //! Why: the tool rubs at a thousandth of the feed that was meant, or is driven at ten times it.
 //! Do: write the point: `F0.2`, `F10.`
 //!
+//! Where a parameter makes an integer the value itself, F2 is 2 mm a turn, and 0.002 mm wherever integers count.
+//!
 //! Silent per revolution where the other reading is out of the question: nobody feeds more than 10 mm a turn, so F200
 //! is 0.2 mm. Silent for a one-digit F that calls a stored feed. Said once a program for each of the two units: who writes one F so writes them all so.
 
@@ -37,6 +39,9 @@ impl IntegerFeed {
         let coarse = if look.fitting.options.input_x10 && !look.command.is_called() { 10 } else { 1 };
         let increment = (if inch { inch_increment } else { metric } * coarse) as f64;
         if feed.per_revolution {
+            if look.fitting.parameter_if_any(look.control.whole_units) != 0.0 {
+                return self.whole(look, (feed.nanometres, increment), inch, found);
+            }
             // The number as written counts increments here; with a point it would count mm or inches.
             let written = feed.nanometres / increment;
             let pointed_mm = if inch { written * MM_AN_INCH } else { written };
@@ -58,6 +63,20 @@ impl IntegerFeed {
                 finding(look, "inch", format!("{} in/min", number(here)), format!("{} in/min", number(other)))
             });
         }
+    }
+
+    /// The number as written counts mm or inches here; elsewhere it counts increments, in nanometres.
+    fn whole(&mut self, look: &Look, (nanometres, increment): (f64, f64), inch: bool, found: &mut Found) {
+        if self.said[0] {
+            return;
+        }
+        self.said[0] = true;
+        let (unit, per_unit) = if inch { ("in/rev", 1e6 * MM_AN_INCH) } else { ("mm/rev", 1e6) };
+        let here = nanometres / per_unit;
+        found.say(Rule::IntegerFeed, &look.command.place, || {
+            let other = (here * increment / per_unit * 1e6).round() / 1e6;
+            finding(look, "whole", format!("{} {unit}", number(here)), format!("{other} {unit}"))
+        });
     }
 }
 

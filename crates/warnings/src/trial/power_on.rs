@@ -3,23 +3,23 @@
 use std::collections::BTreeSet;
 
 use base::AxisSet;
-use dialect::{Control, Fitting, GroupCodes, MOST_GROUPS, NO_CODE, Occasion, ParameterSetting};
+use dialect::{Control, Fitting, GroupCodes, MOST_GROUPS, NO_CODE, Occasion, ParameterKind, ParameterSetting};
 use station::{Library, LibraryError, Session};
 
 use super::{Parting, compare};
 use crate::finding::{At, Finding};
 use crate::rules::Rule;
 
-/// Parameter bits that are combined; a control with more leaves the last ones as they are.
-const MOST_BITS: usize = 12;
+/// Combinations that are tried; a control with more leaves its last parameters as they are.
+const MOST_COMBINATIONS: usize = 4096;
 
 /// One combination that leads to states of its own.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PowerOn {
     /// The control with these parameters.
     pub fitting: Fitting,
-    /// Bits of parameters that differ from those set: name, bit, value.
-    parameters: Vec<(String, u8, bool)>,
+    /// Parameters and bits of parameters that differ from those set, in words.
+    parameters: Vec<String>,
     /// Groups that begin in another state: index, code as set, code here.
     changed: Vec<(usize, u8, u8)>,
     /// Groups that a reset brings to another state.
@@ -29,33 +29,48 @@ pub struct PowerOn {
 /// Every combination of the parameters that decide groups at power-on, and of those that decide them at reset if the
 /// program runs more than once; each set of states that can come of it once, the one as set left out.
 pub fn power_on_trials(control: &Control, fitting: &Fitting, pieces: u64) -> Vec<PowerOn> {
-    let mut bits = BTreeSet::new();
+    let mut knobs = BTreeSet::new();
     for group in &control.groups {
         let reset = group.program_end.parameter.as_ref().filter(|_| pieces > 1);
         for (parameter, own, _) in group.power_on.parameter.iter().chain(reset) {
-            bits.extend(own.iter().map(|bit| (*parameter, *bit)));
+            let row = control.parameters.get(*parameter);
+            match row.filter(|row| row.kind == ParameterKind::Choice) {
+                Some(row) => drop(knobs.insert((*parameter, None, row.values.len()))),
+                None => knobs.extend(own.iter().map(|bit| (*parameter, Some(*bit), 2))),
+            }
         }
     }
-    let bits: Vec<_> = bits.into_iter().take(MOST_BITS).collect();
+    let mut combinations = 1;
+    knobs.retain(|(.., positions)| {
+        let fits = combinations * positions <= MOST_COMBINATIONS;
+        combinations *= if fits { *positions } else { 1 };
+        fits
+    });
     let as_set = fitting.power_on(control);
     // From nothing, so that what a reset keeps differs from what it sets.
     let nothing = GroupCodes([NO_CODE; MOST_GROUPS]);
     let reset_as_set = fitting.groups_after(control, Occasion::ProgramEnd, nothing);
     let mut seen = BTreeSet::from([(as_set.0, reset_as_set.0)]);
     let mut trials = Vec::new();
-    for combination in 0u32..1 << bits.len() {
+    for mut combination in 0..combinations {
         let mut fitting = fitting.clone();
         let mut parameters = Vec::new();
-        for (place, (parameter, bit)) in bits.iter().enumerate() {
-            let value = combination & (1 << place) != 0;
-            let is = fitting.parameter(*parameter) as u8 & (1 << bit) != 0;
-            let Some(row) = control.parameters.get(*parameter) else { continue };
-            if value != is {
-                let setting =
-                    ParameterSetting { name: row.name.clone(), bit: Some(*bit), value: u8::from(value).to_string() };
-                if fitting.set_parameter(control, &setting).is_ok() {
-                    parameters.push((row.name.clone(), *bit, value));
+        for &(parameter, bit, positions) in &knobs {
+            let value = combination % positions;
+            combination /= positions;
+            let stands = fitting.parameter(parameter) as usize;
+            let is = bit.map_or(stands, |bit| stands >> bit & 1);
+            let Some(row) = control.parameters.get(parameter).filter(|_| value != is) else { continue };
+            let (written, said) = match bit {
+                Some(bit) => (value.to_string(), format!("#{} D{bit} = {value}", row.name)),
+                None => {
+                    let word = row.values.get(value).cloned().unwrap_or_default();
+                    (word.clone(), format!("{} = {word}", row.name))
                 }
+            };
+            let setting = ParameterSetting { name: row.name.clone(), bit, value: written };
+            if fitting.set_parameter(control, &setting).is_ok() {
+                parameters.push(said);
             }
         }
         let groups = fitting.power_on(control);
@@ -131,12 +146,10 @@ fn finding<L: Library>(session: &Session<L>, parting: &Parting, trial: &PowerOn)
         let groups: Vec<_> = trial.reset_changed.iter().map(|group| format!("group {:02}", number(group))).collect();
         states.push(format!("another reset of {}", groups.join(", ")));
     }
-    let parameters: Vec<String> =
-        trial.parameters.iter().map(|(name, bit, value)| format!("#{name} D{bit} = {}", u8::from(*value))).collect();
     Finding::at(Rule::InheritedState, "power-on", order, place, At::Block)
         .labelled(format!("{again} under {}", states.join(", ")))
         .with("states", states.join(", "))
-        .with("parameters", parameters.join(", "))
+        .with("parameters", trial.parameters.join(", "))
         .with("again", again)
         .with("first", first)
 }

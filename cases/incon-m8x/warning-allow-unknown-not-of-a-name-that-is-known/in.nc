@@ -1,0 +1,6 @@
+G21 G17 G90
+G54 G40 G49
+G80 G98 G15
+G00 X100. Y50.
+X600. Y400 ;allow: integer-coordinate
+M30

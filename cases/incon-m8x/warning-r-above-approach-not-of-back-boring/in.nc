@@ -1,0 +1,7 @@
+G21 G17 G90
+G54 G40 G49
+G80 G98 G15
+S500 M03
+G00 Z5.
+G98 G87 X10. R-12. Z-5. Q1. F100 (allow: boring-code-differs)
+M30
