@@ -1,7 +1,7 @@
 //! A control that exists nowhere else runs a program by its tables alone: no code knows of it.
 //!
 //! It has its own numbers for known meanings, hundredths of a millimetre, files for programs, one movement and one state a
-//! block, a two-letter machine.
+//! block, a drilling cycle of other steps.
 
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
@@ -75,6 +75,7 @@ const CODES: &[(u8, u8, &str, &str)] = &[
 const ADDRESSES: &[(&str, &str)] = &[
     ("X", "kind = \"axis\"\nmetric = [-500.0, 500.0]"),
     ("Y", "kind = \"axis\"\nmetric = [-500.0, 500.0]"),
+    ("Z", "kind = \"axis\"\nmetric = [-50.0, 50.0]"),
     ("I", "kind = \"length\""),
     ("J", "kind = \"length\""),
     ("R", "kind = \"length\""),
@@ -114,6 +115,9 @@ name = "table"
 kind = "linear"
 travel = [-100.0, 100.0]
 [axes.Y]
+kind = "linear"
+travel = [-100.0, 100.0]
+[axes.Z]
 kind = "linear"
 travel = [-100.0, 100.0]
 "#;
@@ -164,8 +168,8 @@ fn done(text: &str) -> Vec<String> {
     select(&mut session, 0);
     let events = run(&mut session, Expect { most_events: 100, stays_inside: false });
     let said = events.iter().filter_map(|event| match &event.kind {
-        EventKind::Rapid { to, .. } => Some(format!("rapid {} {}", to[0], to[1])),
-        EventKind::Feed { to, feed, .. } => Some(format!("feed {} {} f{feed}", to[0], to[1])),
+        EventKind::Rapid { to, .. } => Some(format!("rapid {} {} {}", to[0], to[1], to[2])),
+        EventKind::Feed { to, feed, .. } => Some(format!("feed {} {} {} f{feed}", to[0], to[1], to[2])),
         EventKind::Arc { arc, .. } => Some(format!("arc {}", arc.sweep.to_degrees().round())),
         EventKind::Dwell(dwell) => Some(format!("{dwell:?}")),
         EventKind::Code(code) => Some(format!("m{}", code.code)),
@@ -177,13 +181,26 @@ fn done(text: &str) -> Vec<String> {
 
 #[test]
 fn a_control_of_tables_alone_runs_a_program() {
-    let text = ";A TOY\n%\ng6 g70 x1000 y-5.005\ng71 x1. f200\nG5 G72 X0 Y-5.01 I-5.5\nG1 P1500\nM77\n";
-    assert_eq!(done(text), ["rapid 10 -5.01", "feed 11 -5.01 f200", "arc -180", "Seconds(1.5)", "m77"]);
+    let text = ";A TOY\n%\ng6 g70 x1000 y-5.005\ng71 x1. f200\nG5 G72 X0 Y-5.01 I-5.5\nG1 P1500\nG81 X2. Y0 Z-3. R1. F50\nM77\n";
+    assert_eq!(
+        done(text),
+        [
+            "rapid 10 -5.01 0",
+            "feed 11 -5.01 0 f200",
+            "arc -180",
+            "Seconds(1.5)",
+            "rapid 2 0 0",
+            "rapid 2 0 1",
+            "feed 2 0 -3 f50",
+            "rapid 2 0 0",
+            "m77"
+        ]
+    );
 }
 
 #[test]
 fn its_rules_are_its_own() {
-    let text = "G70 G5 X1.\nG31 G5\nG5 G1 P1\nG01 X1.\nZ1.\nG90\nG5 G31 G70 X1.\nX501.\n";
+    let text = "G70 G5 X1.\nG31 G5\nG5 G1 P1\nG01 X1.\nA1.\nG90\nG5 G31 G70 X1.\nX501.\n";
     assert_eq!(
         done(text),
         [
