@@ -4,6 +4,7 @@
 //! Comes in: a session whose program is run by the one interpreter up to the block. Goes out: an [`Explanation`], and
 //! its two faces. Must never know: how a code works; it repeats what the interpreter did and what the tables say.
 
+mod count;
 mod face;
 mod happening;
 mod here;

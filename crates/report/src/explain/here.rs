@@ -57,6 +57,12 @@ impl<'h> Here<'h> {
         self.in_force(self.control.roles.cycle).filter(|code| code.is_cycle())
     }
 
+    /// True while the spindle is to keep a surface speed.
+    pub fn keeps_surface_speed(&self) -> bool {
+        let group = self.control.roles.surface_speed;
+        group.and_then(|group| self.in_force(group)) == Some(Meaning::SurfaceSpeedOn)
+    }
+
     pub fn motion(&self) -> Option<Meaning> {
         self.in_force(self.control.roles.motion)
     }

@@ -1,10 +1,11 @@
 //! What a word is for in the block at hand, by the function that asked for it. `None` leaves it to the table's own words.
 
-use dialect::{MMeaning, Meaning};
+use dialect::Meaning;
 use meaning::ReadAs;
 
+use super::count::count;
 use super::here::Here;
-use super::quantity::{coordinate, plain, quantity};
+use super::quantity::{coordinate, quantity};
 
 /// What the word of this letter does here, of which this was read.
 pub fn role(here: &Here, letter: u8, read: ReadAs, value: f64) -> Option<String> {
@@ -26,16 +27,21 @@ pub fn role(here: &Here, letter: u8, read: ReadAs, value: f64) -> Option<String>
     if letter == b'R' && here.has_code(Meaning::RotationOn) {
         return Some("angle of the rotation, + counter-clockwise".to_owned());
     }
+    if let Some(says) = count(here, letter, value) {
+        return Some(says);
+    }
     match letter {
         b'N' => Some("sequence number: a target of jumps and searches; nothing happens".to_owned()),
         b'O' => Some("program number: the program of this name begins".to_owned()),
         b'F' => Some(feed(here)),
         b'H' => Some(offset(here, 0, Meaning::length_offset, "length compensation")),
         b'D' => Some(offset(here, 1, Meaning::position_offset, "tool radius or position")),
+        b'S' if here.keeps_surface_speed() => {
+            Some("surface speed: the spindle follows the distance from zero".to_owned())
+        }
         b'S' => Some("spindle speed, rev/min: goes out as the block begins".to_owned()),
         b'T' => Some("tool number: goes out as the block begins; what the machine does is its builder's".to_owned()),
         b'B' => Some("code of the B function, usually an index position: goes out to the machine".to_owned()),
-        b'P' | b'Q' | b'L' => number(here, letter, value),
         b'I' | b'J' | b'K' | b'R' => geometry(here, letter, value),
         _ => None,
     }
@@ -87,6 +93,13 @@ fn axis(here: &Here, letter: u8, value: f64) -> Option<String> {
         }
         Some(Meaning::BoltCircle | Meaning::ArcPattern) => return Some(format!("{name} of the circle's centre")),
         Some(Meaning::LinePattern) => return Some(format!("{name} of the first hole")),
+        Some(Meaning::LocalCoordinates) => {
+            return Some(format!("local zero: {at} along {name} from the zero of every work system"));
+        }
+        Some(Meaning::WriteData) => {
+            let how = if here.is_absolute() { "becomes" } else { "grows by" };
+            return Some(format!("the origin along {name} {how} {at}"));
+        }
         Some(code) if !keeps_places(code) => return None,
         _ => {}
     }
@@ -97,7 +110,7 @@ fn axis(here: &Here, letter: u8, value: f64) -> Option<String> {
         return Some(format!("{name} of the centre of rotation"));
     }
     if here.has_code(Meaning::StrokeCheckOn) {
-        return Some(format!("upper face of the box along {name}, machine coordinate"));
+        return Some(face(here, "upper", &name.to_string()));
     }
     if here.cycle().is_some() {
         if letter == meaning::LENGTH_AXIS {
@@ -107,6 +120,14 @@ fn axis(here: &Here, letter: u8, value: f64) -> Option<String> {
         return Some(format!("{name} of the hole: {}", place(here, letter, value)));
     }
     Some(place(here, letter, value))
+}
+
+/// A face of the stroke box.
+fn face(here: &Here, which: &str, along: &str) -> String {
+    match here.control.functions.any_corners {
+        true => format!("face of the box along {along}, machine coordinate"),
+        false => format!("{which} face of the box along {along}, machine coordinate"),
+    }
 }
 
 /// True for one-shot codes under which an axis word is where the axis goes.
@@ -140,6 +161,9 @@ fn place(here: &Here, letter: u8, value: f64) -> String {
 }
 
 fn feed(here: &Here) -> String {
+    if here.motion() == Some(Meaning::Thread) && here.cycle().is_none() {
+        return "lead: the way along the cut for one turn of the spindle".to_owned();
+    }
     let cuts = here
         .watched
         .events
@@ -167,30 +191,7 @@ fn offset(here: &Here, which: usize, uses: fn(Meaning) -> Option<f64>, what: &st
     format!("chooses the {cell} for {what}; {how}")
 }
 
-fn number(here: &Here, letter: u8, value: f64) -> Option<String> {
-    let count = plain(value, 0);
-    let shot = here.one_shot();
-    let macro_call = matches!(shot, Some(Meaning::MacroCall)) || here.has_code(Meaning::ModalMacroCall);
-    Some(match letter {
-        b'P' if here.has_m(MMeaning::SubprogramCall) || macro_call => format!("calls program O{count}"),
-        b'P' if here.has_m(MMeaning::SubprogramEnd) => format!("goes on at block N{count} of the calling program"),
-        b'P' if here.has_m(MMeaning::InterruptOn) => format!("an interrupt goes on at block N{count}"),
-        b'P' if here.has_code(Meaning::ScalingOn) => format!("factor of scaling: {}", plain(value / 1000.0, 3)),
-        b'P' if shot == Some(Meaning::WriteData) && here.has(b'Q') => format!("work system {count}"),
-        b'P' if shot == Some(Meaning::WriteData) => format!("number of the offset: {count}"),
-        b'P' if shot == Some(Meaning::OtherReferenceReturn) => format!("reference point {count}"),
-        b'Q' if here.has_m(MMeaning::SubprogramCall) => format!("begins at block N{count} of that program"),
-        b'Q' if matches!(here.cycle(), Some(Meaning::Peck | Meaning::HighSpeedPeck)) => "depth of each cut".to_owned(),
-        b'Q' if shifts(here) => "shift away from the wall, spindle oriented".to_owned(),
-        b'L' if here.has_m(MMeaning::SubprogramCall) || macro_call => format!("{count} times"),
-        b'L' if is_pattern(shot) => format!("{} holes", plain(value.abs(), 0)),
-        b'L' if here.cycle().is_some() && value == 0.0 => "the cycle's data are kept, no hole is made".to_owned(),
-        b'L' if here.cycle().is_some() => format!("the hole {count} times"),
-        _ => return None,
-    })
-}
-
-fn shifts(here: &Here) -> bool {
+pub(super) fn shifts(here: &Here) -> bool {
     matches!(here.cycle(), Some(Meaning::FineBore | Meaning::BackBore))
 }
 
@@ -198,7 +199,7 @@ fn cuts_circle(code: Option<Meaning>) -> bool {
     matches!(code, Some(Meaning::CircleCutClockwise | Meaning::CircleCutCounterClockwise))
 }
 
-fn is_pattern(code: Option<Meaning>) -> bool {
+pub(super) fn is_pattern(code: Option<Meaning>) -> bool {
     matches!(code, Some(Meaning::BoltCircle | Meaning::ArcPattern | Meaning::LinePattern))
 }
 
@@ -233,7 +234,7 @@ fn geometry(here: &Here, letter: u8, value: f64) -> Option<String> {
             return Some(format!("{along} of the centre of scaling"));
         }
         if here.has_code(Meaning::StrokeCheckOn) {
-            return Some(format!("lower face of the box along {along}, machine coordinate"));
+            return Some(face(here, "lower", &along.to_string()));
         }
     }
     if here.cycle().is_some() {

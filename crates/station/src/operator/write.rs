@@ -1,6 +1,6 @@
 //! The panel's pages: offsets, work shifts, parameters, variables.
 
-use dialect::{ParameterSetting, VariableMeaning};
+use dialect::{AxisLetter, ParameterSetting, VariableMeaning};
 
 use super::Operator;
 use crate::action::{Action, OverrideSwitch};
@@ -80,6 +80,18 @@ impl<L: Library> Operator<L> {
 
     fn write_parameter(&mut self, setting: &ParameterSetting) -> Result<(), String> {
         let control = self.session.configuration().control.clone();
+        let names_axis = |axis: &AxisLetter| match axis {
+            AxisLetter::Parameter(index) => {
+                control.parameters.get(*index).is_some_and(|row| row.name.eq_ignore_ascii_case(&setting.name))
+            }
+            AxisLetter::Fixed(_) => false,
+        };
+        if control.axes.iter().any(names_axis) {
+            return Err(format!(
+                "the machine's axes have their letters from `{}` when it is set up: say it with --parameter or in the set-up file",
+                setting.name
+            ));
+        }
         let interpreter = self.session.interpreter_mut();
         interpreter.store_codes();
         let before = interpreter.fitting().clone();
