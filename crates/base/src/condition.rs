@@ -160,6 +160,16 @@ conditions! {
     AxisWordMissing = "axis-word-missing",
     /// What the program is in forbids the code: {1} is the G code that says so.
     StateForbids = "state-forbids",
+    /// I, J or K beside a straight movement on a control that takes them for the tool's direction, without the option.
+    DirectionWithoutOption = "direction-without-option",
+    /// The tool's direction is given in two ways.
+    DirectionTwice = "direction-twice",
+    /// The vector of the tool's direction has no length.
+    DirectionZero = "direction-zero",
+    /// The vector leaves an angle undecided: the tool stands along the axis about which it turns.
+    DirectionUndecided = "direction-undecided",
+    /// The code wants the tool upright.
+    ToolTilted = "tool-tilted",
     /// The code is known and correct, but this program does not execute it yet.
     NotYetBuilt = "not-yet-built",
 

@@ -193,6 +193,9 @@ pub struct Control {
     pub scaling: Option<ScalingRule>,
     /// How the words of rotation are read, on a control that has it.
     pub rotation: Option<RotationRule>,
+    /// Index of the parameter that says how far the tool's tip may leave its way, on a control that can be fitted with
+    /// programming of the tip.
+    pub tool_tip: Option<usize>,
     /// How punched tape is read; `None` on a control without tapes.
     pub tape: Option<TapeRules>,
     /// Row of the base work system, if the control has one.

@@ -44,7 +44,7 @@ pub use policy::{
     DwellVariable, FeedModeChange, G87Return, G92System, InchFeedInteger, LengthWithoutZ, M01OffOutput, MOver99,
     MdiCalls, OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter,
     ProgrammedPosition, ReferenceVia, ResetPointer, ScalingBoreLevels, ScalingCompany, ScalingNegativeRatio,
-    SkipWithoutSignal, StrokeCheck, SubprogramTextEnd, UnitChangeOffsets,
+    SkipWithoutSignal, StrokeCheck, SubprogramTextEnd, TipSingularity, UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Class, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,

@@ -185,7 +185,7 @@ fn head(root: &mut Table, member: &str) -> Head {
         tape: root.table("tape", settings::tape),
         groups: root.tables("group", codes::group),
         options: root.tables("option", |row| settings::option(row, member)).into_iter().flatten().collect(),
-        policies: root.tables("policy", settings::policy),
+        policies: root.tables("policy", |row| settings::policy(row, member)).into_iter().flatten().collect(),
     }
 }
 
@@ -310,6 +310,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         mirror_setting,
         scaling,
         rotation,
+        tool_tip: parameter_if_any(&parameters, "tool tip tolerance"),
         tape,
         base_system,
         m_ranges,

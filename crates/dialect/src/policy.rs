@@ -167,6 +167,13 @@ policies! {
         /// The ratio is that of the parameter for ratios left out.
         Parameter = "parameter",
     }
+    /// A direction of the tool that leaves the angle of an axis undecided.
+    tip_singularity: TipSingularity = "tip-singularity" {
+        /// The axis stays where it is.
+        Keep = "keep",
+        /// The block is refused.
+        Refuse = "refuse",
+    }
     /// From where distances count, and a turned axis without a word, when scale or rotation has just changed.
     programmed_position: ProgrammedPosition = "programmed-position" {
         /// From the program's name, under the new transform, of the place where the axes stand.
@@ -247,7 +254,7 @@ policies! {
 }
 
 /// Options that change what ordinary words mean: a control that does not list them does without.
-const NEW_MEANINGS: &[&str] = &["one-digit-feed", "input-x10"];
+const NEW_MEANINGS: &[&str] = &["one-digit-feed", "input-x10", "tool-tip"];
 
 macro_rules! options {
     ($($(#[$doc:meta])* $field:ident = $name:literal,)*) => {
@@ -301,6 +308,8 @@ options! {
     one_digit_feed = "one-digit-feed",
     /// Least increments of program words ten times as large.
     input_x10 = "input-x10",
+    /// X, Y and Z of straight movements are the tip of the tool.
+    tool_tip = "tool-tip",
     /// S is the spindle speed in rev/min, not a two-digit code.
     spindle_rpm = "spindle-rpm",
 }

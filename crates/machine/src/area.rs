@@ -211,7 +211,7 @@ mod tests {
         assert!(curve(&unit(), &arc(20.0)).is_none(), "it touches");
         let shape = Shape::Arc {
             arc: arc(19.999),
-            feed: Feed { mm_per_min: 1.0, exact_stop: false, tapping: false, per_revolution: false },
+            feed: Feed { mm_per_min: 1.0, exact_stop: false, tapping: false, per_revolution: false, way_mm: 0.0 },
         };
         assert!(offence(&StrokeArea { outside: true, ..unit() }, &shape, None).is_some(), "it begins outside");
     }

@@ -5,9 +5,10 @@
 use base::{AXES, AxisSet, Point, Seconds};
 use data::{DataError, Document, Table};
 use include_dir::{Dir, include_dir};
-use meaning::{AxisFacts, CodeLine, CodeRules, MachineFacts};
+use meaning::{AxisFacts, CodeLine, CodeRules, Kinematics, MachineFacts};
 use motion::{AxisLimits, Limits};
 
+use crate::kinematics::kinematics;
 use crate::travel::Travel;
 
 static MACHINES: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../machines");
@@ -89,6 +90,8 @@ pub struct MachineFile {
     pub times: CodeTimes,
     /// What is wired to the control's inputs.
     pub wiring: Wiring,
+    /// How the axes that turn move the tip of the tool; `None` if the builder does not say.
+    pub kinematics: Option<Kinematics>,
 }
 
 impl MachineFile {
@@ -101,7 +104,7 @@ impl MachineFile {
             reference_points: axis.reference_points.map(counts),
             approach: counts(axis.approach),
         });
-        MachineFacts { axes: axes.collect(), codes: self.codes.clone() }
+        MachineFacts { axes: axes.collect(), codes: self.codes.clone(), kinematics: self.kinematics }
     }
 
     /// The machine as motion sees it.
@@ -156,6 +159,7 @@ fn machine(root: &mut Table) -> MachineFile {
         rwd: t.strings("RWD").unwrap_or_else(default_rwd),
     });
     root.table("magazine", |t| t.integer("pockets"));
+    let kinematics = root.table("kinematics", |t| kinematics(t, &axes)).flatten();
     let Functions { codes, times, b_axis } = match functions {
         Some(functions) => functions,
         None => default_functions(root, &axes),
@@ -168,6 +172,7 @@ fn machine(root: &mut Table) -> MachineFile {
         b_axis,
         codes,
         times,
+        kinematics,
         wiring: wiring.unwrap_or_else(|| Wiring { eop: default_eop(), rwd: default_rwd() }),
     }
 }

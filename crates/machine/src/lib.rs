@@ -6,6 +6,7 @@
 mod area;
 mod event;
 mod file;
+mod kinematics;
 mod travel;
 mod virtual_machine;
 

@@ -73,6 +73,8 @@ pub(crate) struct Reading<'r> {
     pub one_shot: Option<(Meaning, usize)>,
     /// The axis words lead nowhere: they are the centre of scaling or the faces of a box.
     pub words_taken: bool,
+    /// Letters of axes whose words are something else in this block, one bit each.
+    pub not_axes: u32,
     /// Axes whose place the block determines, if nothing it rests on is unknown.
     pub now_known: AxisSet,
 }
@@ -121,6 +123,7 @@ pub(crate) fn read_meaning(
         length_change: 0.0,
         one_shot: None,
         words_taken: false,
+        not_axes: 0,
         now_known: AxisSet::NONE,
     };
     reading.check_letters()?;
@@ -286,6 +289,7 @@ impl Reading<'_> {
     /// The one-shot code, the cycle or the movement.
     fn act(&mut self) -> Result<(), Alarm> {
         let roles = self.control().roles;
+        self.check_tip()?;
         self.words_taken = self.groups_written & self.setting.transform_groups != 0 && self.take_transforms()?;
         self.words_taken |= self.stroke_box()?;
         self.exchange_side();
@@ -344,7 +348,7 @@ impl Reading<'_> {
             return Ok(named);
         }
         for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
-            if self.words.has(facts.letter) {
+            if self.words.has(facts.letter) && self.not_axes & letter_bit(facts.letter) == 0 {
                 named.add(axis);
             }
         }

@@ -8,6 +8,7 @@ use crate::centring::Centring;
 use crate::circle_cutting::CircleCut;
 use crate::cycle::Holes;
 use crate::data_setting::DataWrite;
+use crate::kinematics::Kinematics;
 use crate::operation::{CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
 use crate::program::Frame;
 use crate::state::State;
@@ -57,6 +58,8 @@ pub(crate) enum Body {
         missed: Option<Alarm>,
     },
     Centring(Centring),
+    /// A straight way of the tool's tip, in parts.
+    Tip(TipMove),
     Dwell(Dwell),
     Set(SetValue, Option<SetValue>),
     Holes(Holes),
@@ -64,6 +67,21 @@ pub(crate) enum Body {
     Alarm(Alarm),
     /// The program begins.
     Start(GroupCodes),
+}
+
+/// A straight way of the tool's tip while the axes turn.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct TipMove {
+    pub kinematics: Kinematics,
+    /// Where it ends, as if nothing were turned; counts.
+    pub upright: Point,
+    /// Where the machine stands then, counts.
+    pub machine: Point,
+    /// The tool's length at the beginning and at the end, mm.
+    pub lengths: [f64; 2],
+    pub parts: u32,
+    /// The feed of each part.
+    pub feed: Feed,
 }
 
 impl Body {
@@ -78,6 +96,7 @@ impl Body {
                 | Body::Arc { .. }
                 | Body::Skip { .. }
                 | Body::Centring(_)
+                | Body::Tip(_)
                 | Body::Circle(_)
                 | Body::Holes(_)
         )
@@ -184,7 +203,8 @@ impl Command {
     /// True if it cuts: a feed is in use.
     pub fn cuts(&self) -> bool {
         match &self.body {
-            Body::Line { .. } | Body::Arc { .. } | Body::Skip { .. } | Body::Centring(_) | Body::Circle(_) => true,
+            Body::Line { .. } | Body::Arc { .. } | Body::Skip { .. } => true,
+            Body::Centring(_) | Body::Circle(_) | Body::Tip(_) => true,
             Body::Holes(holes) => holes.cycle.is_some(),
             _ => false,
         }

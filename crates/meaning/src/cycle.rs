@@ -234,7 +234,13 @@ mod tests {
                     start: None,
                     restart: None,
                     by_hand: false,
-                    feed: Feed { mm_per_min: 100.0, exact_stop: false, tapping: false, per_revolution: false },
+                    feed: Feed {
+                        mm_per_min: 100.0,
+                        exact_stop: false,
+                        tapping: false,
+                        per_revolution: false,
+                        way_mm: 0.0,
+                    },
                     rapid: RapidKind::Checked,
                 };
                 let (mut at, mut steps, mut level) = (Cursor::default(), 0, holes.end);

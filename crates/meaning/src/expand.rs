@@ -3,7 +3,7 @@
 use base::{AXES, AxisSet, Point};
 
 use crate::centring::Centring;
-use crate::command::{Body, Command, Finish};
+use crate::command::{Body, Command, Finish, TipMove};
 use crate::cycle::{Cursor, Holes, Spindle, Step, begins_at_r, next_step};
 use crate::operation::{Act, ArcMove, Close, CodeLine, CodeOut, Dwell, Feed, Operation, RapidKind, StopKind};
 use crate::setting::to_mm;
@@ -148,6 +148,7 @@ impl Expansion {
         match &command.body {
             Body::Holes(holes) => return self.next_in_hole(holes, around, &mut out.stop_point),
             Body::Skip { .. } => return self.next_in_skip(command, around, out),
+            Body::Tip(tip) => return self.next_of_tip(tip, command, around),
             Body::Centring(centring) => return self.next_in_centring(centring, around, out),
             _ => {}
         }
@@ -183,6 +184,27 @@ impl Expansion {
             (Body::Start(groups), 0) => Some(Act::Start(*groups)),
             _ => None,
         }
+    }
+
+    /// The next part of a way of the tool's tip: where it would stand upright, straight on, and the machine with it.
+    #[cold]
+    #[inline(never)]
+    fn next_of_tip(&mut self, tip: &TipMove, command: &Command, around: &Surroundings) -> Option<Act> {
+        if self.hole >= tip.parts {
+            return None;
+        }
+        self.hole += 1;
+        if self.hole == tip.parts {
+            return Some(Act::Line { to: to_mm(&tip.machine, around.axes), feed: tip.feed });
+        }
+        let part = f64::from(self.hole) / f64::from(tip.parts);
+        let mm = |counts: &Point| to_mm(counts, around.axes);
+        let from = tip.kinematics.upright(&mm(&command.from), tip.lengths[0]);
+        let to = mm(&tip.upright);
+        let between: Point = std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * part);
+        let length = tip.lengths[0] + (tip.lengths[1] - tip.lengths[0]) * part;
+        let feed = Feed { exact_stop: false, ..tip.feed };
+        Some(Act::Line { to: tip.kinematics.placed(&between, length), feed })
     }
 
     /// A line until the skip signal, and the alarm where it did not come.

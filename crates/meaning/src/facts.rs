@@ -2,6 +2,7 @@
 
 use base::{AXES, AxisSet, Point};
 
+use crate::kinematics::Kinematics;
 use crate::user_macro::Variables;
 
 /// One axis as programs see it.
@@ -35,6 +36,8 @@ pub struct MachineFacts {
     pub axes: Vec<AxisFacts>,
     /// How codes go out.
     pub codes: CodeRules,
+    /// How axes that turn move the tip of the tool, where the builder says so.
+    pub kinematics: Option<Kinematics>,
 }
 
 impl MachineFacts {

@@ -108,7 +108,7 @@ impl Reading<'_> {
         if limit > 0.0 && mm.is_finite() {
             mm = mm.min(limit);
         }
-        Ok(Feed { mm_per_min: mm, exact_stop: self.exact_stop, tapping: self.tapping, per_revolution })
+        Ok(Feed { mm_per_min: mm, exact_stop: self.exact_stop, tapping: self.tapping, per_revolution, way_mm: 0.0 })
     }
 
     /// The spindle speed that S has set, rev/min.

@@ -24,6 +24,7 @@ mod g_codes;
 mod interpreter;
 mod interrupt;
 mod jump;
+mod kinematics;
 mod local_coordinates;
 mod mirror;
 mod motion;
@@ -48,6 +49,7 @@ mod stroke;
 mod supply;
 mod surface_speed;
 mod target;
+mod tool_tip;
 mod transform;
 mod unknown;
 mod user_macro;
@@ -60,6 +62,7 @@ pub use cycle::Spindle;
 pub use facts::{AxisFacts, CodeRules, MachineFacts, Memory, OffsetTable, Switches};
 pub use interpreter::Interpreter;
 pub use interrupt::Interrupt;
+pub use kinematics::{Carrier, Kinematics};
 pub use operation::{
     Act, ArcMove, Close, CodeLine, CodeOut, Dwell, EndKind, Feed, Operation, Plane, RapidKind, SetValue, Side,
     StopKind, StrokeArea,

@@ -13,6 +13,12 @@ use crate::position_offset::PositionOffset;
 impl Reading<'_> {
     /// The block's movement under the motion code in force.
     pub fn motion(&mut self, motion: Meaning) -> Result<(), Alarm> {
+        if self.control().tool_tip.is_some() && matches!(motion, Meaning::Rapid | Meaning::Linear) {
+            match self.setting.tip().copied() {
+                Some(tip) => return self.tip_motion(tip, motion),
+                None => self.refuse_vector()?,
+            }
+        }
         match motion {
             Meaning::ArcClockwise | Meaning::ArcCounterClockwise => self.arc(motion == Meaning::ArcClockwise),
             _ => {

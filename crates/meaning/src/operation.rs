@@ -67,6 +67,8 @@ pub struct Feed {
     pub tapping: bool,
     /// True if it follows the spindle: the speed that was commanded is counted in, the spindle override is not.
     pub per_revolution: bool,
+    /// The length of the way along which it counts, mm, where that is not the way of the axes; 0 otherwise.
+    pub way_mm: f64,
 }
 
 /// An arc, in its plane; every other axis moves in step with the angle.

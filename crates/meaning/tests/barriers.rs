@@ -16,6 +16,7 @@ fn interpreter() -> Interpreter {
     let facts = MachineFacts {
         axes: b"XYZ".iter().map(|&letter| axis(letter)).collect(),
         codes: CodeRules { digits: [2, 4, 2, 3], m_after_motion: vec![5, 6, 9], b_after_motion: false },
+        kinematics: None,
     };
     let variables = Variables::new(&control.user_macro, control.macro_levels);
     let memory =

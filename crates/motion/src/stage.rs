@@ -106,7 +106,9 @@ impl Motion {
         let (commanded, speed) = if at_rapid {
             (self.along(from, to, length, |axis| axis.rapid).0 * 60.0, most)
         } else {
-            (self.overrides.commanded(feed), most.min(self.overrides.actual(feed) / 60.0))
+            // The feed of the tool's tip, whose way is another than that of the axes.
+            let share = if feed.way_mm > 0.0 { length / feed.way_mm } else { 1.0 };
+            (self.overrides.commanded(feed), most.min(self.overrides.actual(feed) / 60.0 * share))
         };
         (Trapezoid::new(length, speed, acceleration).seconds(), length, commanded)
     }

@@ -136,6 +136,12 @@ impl Configuration {
         }
         configuration.check_start(setups)?;
         configuration.fitting.check_options(&configuration.control).map_err(|error| wrong(error.0))?;
+        if configuration.fitting.options.tool_tip && configuration.machine.kinematics.is_none() {
+            let name = &configuration.machine.name;
+            return Err(wrong(format!(
+                "option `tool-tip` wants [kinematics] in the machine's file, which says what tilts and turns; `{name}` has none"
+            )));
+        }
         configuration.fitting.check_tape_codes(&configuration.control).map_err(|error| wrong(error.0))?;
         Ok(configuration)
     }

@@ -219,7 +219,7 @@ fn feed<L: Library>(session: &Session<L>) -> Value {
     let commanded = state.feed.nanometres / 1e6;
     let per_revolution = control.in_force(&state.groups, control.roles.feed_mode) == Some(Meaning::FeedPerRevolution);
     let mm_per_min = if per_revolution { commanded * f64::from(state.spindle) } else { commanded };
-    let feed = meaning::Feed { mm_per_min, exact_stop: false, tapping: false, per_revolution };
+    let feed = meaning::Feed { mm_per_min, exact_stop: false, tapping: false, per_revolution, way_mm: 0.0 };
     let moves = session.is_running() && !session.is_stopped();
     Value::object([
         ("f", Value::Number(commanded)),

@@ -24,7 +24,8 @@ pub(super) fn option(row: &mut Table, member: &str) -> Option<OptionRow> {
     there.then_some(option)
 }
 
-pub(super) fn policy(row: &mut Table) -> PolicyRow {
+pub(super) fn policy(row: &mut Table, member: &str) -> Option<PolicyRow> {
+    let there = is_of(row, member);
     let values = row.strings("values").unwrap_or_default();
     let place = row.place_of("default").unwrap_or_else(|| row.range());
     let default = row.required_string("default");
@@ -32,14 +33,15 @@ pub(super) fn policy(row: &mut Table) -> PolicyRow {
     if index.is_none() {
         row.error(place, format!("default \"{default}\" is not one of the values"));
     }
-    PolicyRow {
+    let policy = PolicyRow {
         name: row.required_string("name"),
         values,
         default: index.unwrap_or(0),
         text: row.required_string("text"),
         bears_on: row.strings("bears_on"),
         origin: origin(row),
-    }
+    };
+    there.then_some(policy)
 }
 
 pub(super) fn parameters(root: &mut Table, member: &str) -> Vec<ParameterRow> {

@@ -179,7 +179,7 @@ impl Reading<'_> {
             start: None,
             restart: None,
             by_hand: false,
-            feed: Feed { mm_per_min: 0.0, exact_stop: false, tapping: false, per_revolution: false },
+            feed: Feed { mm_per_min: 0.0, exact_stop: false, tapping: false, per_revolution: false, way_mm: 0.0 },
             rapid: RapidKind::Checked,
         };
         if let Some(cycle) = cycle {

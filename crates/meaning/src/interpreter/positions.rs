@@ -10,20 +10,24 @@ impl Interpreter {
     pub fn work_position(&self, machine: &Point) -> Point {
         let setting = &self.reader.setting;
         let mut work = [0.0; AXES];
+        let state = self.executing_state();
+        let place = setting.upright(state, &machine.map(|mm| (mm * 1e6).round()));
         for axis in 0..setting.facts.axes.len().min(AXES) {
-            work[axis] = ((machine[axis] * 1e6).round() - setting.zero(self.executing_state(), axis)) / 1e6;
+            work[axis] = (place[axis] - setting.zero(state, axis)) / 1e6;
         }
         work
     }
 
     /// The words that lead to a place of the machine in a state (counts).
     pub fn programmed(&self, state: &State, machine: &Point) -> Point {
-        self.reader.setting.programmed(state, machine)
+        let setting = &self.reader.setting;
+        setting.programmed(state, &setting.upright(state, machine))
     }
 
     /// The coordinates programmed last, the axes standing there (counts).
     pub fn last_programmed(&self, state: &State, machine: &Point) -> Point {
-        self.reader.setting.last_programmed(state, machine)
+        let setting = &self.reader.setting;
+        setting.last_programmed(state, &setting.upright(state, machine))
     }
 
     /// Where program zero lies in a state, offsets included: mm and degrees, machine coordinates.

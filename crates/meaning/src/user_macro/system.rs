@@ -167,7 +167,7 @@ impl Source<'_> {
         let unit = self.unit(axis);
         Ok(match meaning {
             VariableMeaning::BlockEnd => {
-                let mut machine = state.machine;
+                let mut machine = self.setting.upright(state, &state.machine);
                 for axis in 0..AXES {
                     machine[axis] -= state.displacement[axis];
                 }

@@ -15,6 +15,9 @@ pub fn role(here: &Here, letter: u8, read: ReadAs, value: f64) -> Option<String>
             _ => "how long the tool waits at the bottom of the hole".to_owned(),
         });
     }
+    if let Some(says) = direction(here, letter) {
+        return Some(says);
+    }
     if let Some((_, facts)) = here.axis(letter) {
         return match polar(here, letter, read == ReadAs::Angle && !facts.rotary) {
             Some(says) => Some(says),
@@ -45,6 +48,30 @@ pub fn role(here: &Here, letter: u8, read: ReadAs, value: f64) -> Option<String>
         b'I' | b'J' | b'K' | b'R' => geometry(here, letter, value),
         _ => None,
     }
+}
+
+/// A word of the tool's direction, where X, Y and Z of straight movements are its tip.
+fn direction(here: &Here, letter: u8) -> Option<String> {
+    let straight = matches!(here.motion(), Some(Meaning::Rapid | Meaning::Linear)) && here.cycle().is_none();
+    let free = here.one_shot().is_none_or(|code| code == Meaning::ExactStop);
+    if !(here.fitting.options.tool_tip && straight && free) {
+        return None;
+    }
+    Some(match letter {
+        b'A' => "the tool tilts by this about X".to_owned(),
+        b'B' => "the tool tilts by this about Y".to_owned(),
+        b'C' => "the tilted tool is turned by this about Z".to_owned(),
+        b'I' => "direction of the tool, from its tip to the holder: along X".to_owned(),
+        b'J' => "direction of the tool, from its tip to the holder: along Y".to_owned(),
+        b'K' => "direction of the tool, from its tip to the holder: along Z".to_owned(),
+        b'X' | b'Y' | b'Z' => return Some(format!("tip of the tool: {}", tip(here, letter)?)),
+        _ => return None,
+    })
+}
+
+fn tip(here: &Here, letter: u8) -> Option<String> {
+    let (_, value) = here.read(letter)?;
+    Some(place(here, letter, value))
 }
 
 /// A word of the plane in polar coordinates.
