@@ -117,6 +117,8 @@ fn fill(text: &str, alarm: &Alarm, word: &str, axis: Option<(char, bool)>) -> St
                 let unit = if axis.is_some_and(|(_, turns)| turns) { "deg" } else { "mm" };
                 out.push_str(&format!("{} {unit}", plain(value(digit).unwrap_or(0.0))));
             }
+            // A limit in inches has four decimals.
+            Some((digit, "limit")) => out.push_str(&rounded(value(digit).unwrap_or(0.0), 4)),
             Some((digit, "row")) => {
                 let row = value(digit).unwrap_or(0.0) as u8;
                 out.push_str(&format!("{row:02X} (channels {})", tape::holes(row)));
@@ -144,7 +146,12 @@ fn fill(text: &str, alarm: &Alarm, word: &str, axis: Option<(char, bool)>) -> St
 
 /// A number for people: at most three decimals, no trailing zeros.
 fn plain(value: f64) -> String {
-    let text = format!("{value:.3}");
+    rounded(value, 3)
+}
+
+/// A number with at most so many decimals, no trailing zeros.
+fn rounded(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }

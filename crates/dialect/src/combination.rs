@@ -58,7 +58,13 @@ impl Combination {
         if rows.len() > 1 && (0..rows.len()).any(|index| takes(index) == Takes::AllWords) {
             return Err((Condition::AxisWordsClaimedTwice, 1));
         }
-        let claims = |&index: &usize| is(index, Class::Movement) || takes(index) == Takes::AxisWords;
+        let straight =
+            movement.and_then(row).is_some_and(|row| matches!(row.meaning, Meaning::Rapid | Meaning::Linear));
+        let claims = |&index: &usize| match takes(index) {
+            Takes::AxisWords => true,
+            Takes::Target => !straight,
+            _ => is(index, Class::Movement),
+        };
         found(Condition::AxisWordsClaimedTwice, (0..rows.len()).filter(claims).nth(1))
     }
 }

@@ -50,6 +50,8 @@ pub enum Takes {
     Nothing,
     /// The axis words: no movement and no other such code can stand beside it.
     AxisWords,
+    /// The target, which it names in its own way: of movements only those straight to a target can stand beside it.
+    Target,
     /// Every word: no other code can stand beside it.
     AllWords,
 }

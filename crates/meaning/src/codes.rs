@@ -19,7 +19,7 @@ const HIGHEST_SPEED_CODE: u32 = 99;
 impl Reading<'_> {
     /// Takes the block's codes; returns where the program goes on.
     pub fn take_codes(&mut self) -> Result<Flow, Refusal> {
-        let by_surface = self.keeps_surface_speed();
+        let by_surface = self.is_surface_speed();
         if !by_surface && !self.words.has_any(self.setting.code_letters) {
             return Ok(Flow::Next);
         }

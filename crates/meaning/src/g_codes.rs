@@ -67,7 +67,8 @@ impl Reading<'_> {
         for (&written, &place) in rows.iter().zip(places) {
             for &other in row(written).map_or(&[][..], |code| &code.not_under) {
                 let Some(code) = row(other) else { continue };
-                let in_force = code.group.is_some_and(|group| self.next.groups.0[usize::from(group)] == other);
+                let in_force = code.group.is_some_and(|group| self.next.groups.0[usize::from(group)] == other)
+                    && !(code.meaning.length_offset().is_some() && self.is_length_ended());
                 if let (true, Some(word)) = (in_force, self.words.block.words.get(place)) {
                     let values = [f64::from(code.code), 0.0, 0.0];
                     return Err(self.words.alarm_at(Condition::StateForbids, word).with(values));
@@ -75,6 +76,11 @@ impl Reading<'_> {
             }
         }
         Ok(())
+    }
+
+    /// True if H00 has ended the length offset, and nothing of it has yet to be moved away.
+    fn is_length_ended(&self) -> bool {
+        self.before.h == 0 && self.before.length == 0.0 && self.before.length_due == 0.0
     }
 
     fn g_row(&self, word: &syntax::Word) -> Result<u8, Alarm> {

@@ -2,20 +2,23 @@
 //! turns about Z, and the control makes rev/min of it: `n = S / (2π·|X|)`, X in the work system in force.
 //!
 //! The speed that goes out is that of the place from which a block starts, to the whole rev/min, never above a
-//! parameter; it goes out with a block at whose start it has changed. G97 keeps the last one until an S of its own.
+//! parameter; it goes out with a block at whose start it has changed. G97 keeps that of its own place until an S.
 
 use base::units::NM_PER_INCH;
 use base::{Alarm, UnitSystem};
 use dialect::Meaning;
 
 use crate::block::Reading;
+use crate::state::State;
 
 impl Reading<'_> {
-    /// True while the surface speed is kept.
-    pub fn keeps_surface_speed(&self) -> bool {
+    /// True while the surface speed is kept, and in the block that ends it without an S of its own: the rev/min that
+    /// are kept are those of the place where it ends.
+    pub fn is_surface_speed(&self) -> bool {
         let control = self.setting.control.as_ref();
-        let group = control.roles.surface_speed;
-        group.is_some_and(|group| control.in_force(&self.next.groups, group) == Some(Meaning::SurfaceSpeedOn))
+        let Some(group) = control.roles.surface_speed else { return false };
+        let kept_by = |state: &State| control.in_force(&state.groups, group) == Some(Meaning::SurfaceSpeedOn);
+        kept_by(self.next) || (kept_by(self.before) && !self.words.has(b'S'))
     }
 
     /// Takes S as the surface speed; the rev/min for it, if they are not those that the spindle has.

@@ -111,7 +111,8 @@ const CLASSES: &[(&str, Class)] = &[
     ("one-shot", Class::OneShot),
 ];
 
-const TAKES: &[(&str, Takes)] = &[("axis-words", Takes::AxisWords), ("all-words", Takes::AllWords)];
+const TAKES: &[(&str, Takes)] =
+    &[("axis-words", Takes::AxisWords), ("target", Takes::Target), ("all-words", Takes::AllWords)];
 
 fn g_code(row: &mut Table, groups: &[u8], options: &[OptionRow], seen: &mut Vec<u16>) -> GCode {
     let code = code_number(row, "g", seen);

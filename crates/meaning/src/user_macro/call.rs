@@ -118,7 +118,7 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// The value of an argument: as written with a point, in the address's increments without one.
+    /// The value of an argument: as written with a point, in the address's increments without one unless integers are whole units.
     fn argument(&self, index: usize, word: &Word) -> Result<f64, Alarm> {
         if let Some(&value) = self.word_values.get(index).filter(|value| !value.is_nan()) {
             return Ok(value);
@@ -132,7 +132,11 @@ impl Reading<'_> {
         let control = self.control();
         let [metric, inch, rotary] = control.increments;
         let coarse = self.words.coarse as f64;
-        let increment = match control.address(word.letter).map(|address| address.kind) {
+        let kind = control.address(word.letter).map(|address| address.kind);
+        if self.words.whole_units && (kind != Some(AddressKind::Feed) || self.is_per_revolution()) {
+            return Ok(number.to_f64());
+        }
+        let increment = match kind {
             Some(AddressKind::LinearAxis | AddressKind::Length) if self.units == UnitSystem::Inch => {
                 inch as f64 * coarse / base::units::NM_PER_INCH as f64
             }
