@@ -36,7 +36,8 @@ checks: cargo
 	python3 ci/house.py
 	python3 ci/licences.py
 	python3 ci/pages.py --check
-	cargo run --quiet --locked -p cyclestart -- controls yasnac-mx1 --coverage > /dev/null
+	set -e; for control in yasnac-mx1 incon-m84 incon-m86 incon-m86r; do \
+		cargo run --quiet --locked -p cyclestart -- controls $$control --coverage > /dev/null; done
 	python3 -m unittest discover -q ci
 
 bench: build ## measure: speed beside a peer, memory; prints command, sample, figure, limit
