@@ -17,6 +17,14 @@ impl Reading<'_> {
             || self.cuts_thread()
     }
 
+    /// The way of counting F changes. F does not come back with the old way either, unless its number is kept.
+    #[cold]
+    pub fn leave_feed(&mut self) {
+        if self.setting.fitting.policies.feed_mode_change == FeedModeChange::NeedsF {
+            self.next.feed.nanometres = 0.0;
+        }
+    }
+
     /// True if the block's cut is synchronised with the spindle.
     fn cuts_thread(&self) -> bool {
         let (control, groups) = (self.setting.control.as_ref(), &self.next.groups);

@@ -35,6 +35,9 @@ impl Reading<'_> {
             restricted |= !code.not_under.is_empty();
             match code.group {
                 Some(group) => {
+                    if usize::from(group) == roles.feed_mode && self.before.groups.0[roles.feed_mode] != row {
+                        self.leave_feed();
+                    }
                     self.next.groups.0[usize::from(group)] = row;
                     self.groups_written |= 1 << group;
                     // Any movement code ends a canned cycle.
