@@ -10,10 +10,16 @@ command -v c++ >/dev/null || { echo "make fuzz needs a C++ compiler (Debian: apt
 
 cargo build --release --locked --quiet --bin "$target"
 
-# Every program of the corpus and of the examples is a seed; their names are those of their contents.
+# Every program of the corpus and of the examples is a seed; their names are those of their contents. A first byte of 0 to 7
+# chooses the control: each program is a seed for four.
 mkdir -p "$corpus" artifacts
-find ../cases ../examples -type f \( -name '*.nc' -o -name '*.txt' -o -name '*.eia' -o -name '*.iso' \) -size -4k | while read -r seed; do
-    cp "$seed" "$corpus/$(cksum <"$seed" | cut -d' ' -f1)"
+controls=('')
+[ "$target" != interpret ] || controls=('\000' '\001' '\002' '\003')
+find ../cases ../examples -type f \( -name '*.nc' -o -name '*.cnc' -o -name '*.txt' -o -name '*.eia' -o -name '*.iso' \) -size -4k | while read -r seed; do
+    name=$(cksum <"$seed" | cut -d' ' -f1)
+    for control in "${controls[@]}"; do
+        { printf %b "$control"; cat "$seed"; } >"$corpus/$name${control#??}"
+    done
 done
 
 host=$(rustc -vV | sed -n "s/^host: //p")

@@ -1,29 +1,36 @@
 //! Any program through the whole interpreter: never a panic, never a step that does not end, never an impossible event.
 //!
-//! The last byte of an input chooses machine, mode and pieces, so that a program is an input as it is.
+//! The first byte of an input chooses the control, the last one machine, mode and pieces; a program is an input as it is.
 
 #![no_main]
 
 use std::sync::LazyLock;
 
-use fuzz::watch::{Expect, Texts, configuration, machine, run, select};
+use dialect::Control;
+use fuzz::watch::{Expect, run, select};
+use fuzz::{Fleet, texts};
 use libfuzzer_sys::fuzz_target;
 use machine::EventKind;
 use report::{Excerpt, Format, render};
-use station::{AfterAlarm, Configuration, OffsetColumn, Session, Setup};
+use station::{AfterAlarm, OffsetColumn, Session, Setup};
 
 /// Events after which a run is given up; most inputs end long before.
 const MOST_EVENTS: usize = 400;
 /// Jumps without motion after which a program is endless.
 const MOST_JUMPS: u64 = 50;
+/// Travel of every axis to both sides, mm and degrees.
+const WIDE: f64 = 9e6;
+const TIGHT: f64 = 40.0;
 
-static WIDE: LazyLock<Configuration> = LazyLock::new(|| configuration(machine("unlimited", None), &setup()));
-static TIGHT: LazyLock<Configuration> = LazyLock::new(|| configuration(machine("stock-vmc", Some(40.0)), &setup()));
+static FLEETS: LazyLock<[Fleet; 4]> = LazyLock::new(|| {
+    [(WIDE, false), (TIGHT, false), (WIDE, true), (TIGHT, true)].map(|(travel, other)| Fleet::new(travel, setup, other))
+});
 
-fn setup() -> Setup {
+fn setup(control: &Control) -> Setup {
+    let column = if control.common_offsets { OffsetColumn::Common } else { OffsetColumn::Length };
     let offsets = [(1, 12.5), (2, -3.25), (11, 0.0), (31, 8.0), (99, 999.999)];
     Setup {
-        offsets: offsets.iter().map(|&(number, mm)| (OffsetColumn::Common, number, mm)).collect(),
+        offsets: offsets.iter().map(|&(number, mm)| (column, number, mm)).collect(),
         work: vec![("G54".into(), b'X', 10.0), ("G55".into(), b'Z', -20.0)],
         ..Setup::default()
     }
@@ -32,11 +39,11 @@ fn setup() -> Setup {
 fuzz_target!(|input: &[u8]| {
     let Some((&mode, text)) = input.split_last() else { return };
     let bit = |bit: u8| mode & (1 << bit) != 0;
-    let mut configuration = if bit(0) { TIGHT.clone() } else { WIDE.clone() };
+    let (mut configuration, text) = FLEETS[usize::from(mode & 1 | mode >> 6 & 2)].choose(text);
     configuration.switches.block_delete = if bit(4) { 0b11 } else { 0 };
     configuration.switches.optional_stop = bit(5);
     configuration.switches.single_block = bit(6);
-    let texts = Texts::one(text);
+    let texts = texts(text);
     let texts = if bit(2) { texts.in_pieces(&[7, 1, 30]) } else { texts };
     let mut session = Session::new(configuration, texts);
     session.set_after_alarm(if bit(1) { AfterAlarm::GoOn } else { AfterAlarm::Stand });

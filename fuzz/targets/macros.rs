@@ -1,14 +1,16 @@
 //! Programs made of macro tokens through the whole interpreter: every byte is a token, so that statements get deep.
 //!
-//! Never a panic, never a step that does not end; the same with the text in one piece or in many.
+//! Never a panic, never a step that does not end; the same with the text in one piece or in many. The first byte chooses
+//! the control too, the last one the mode.
 
 #![no_main]
 
 use std::sync::LazyLock;
 
-use fuzz::watch::{Expect, Texts, configuration, machine, run, select};
+use fuzz::watch::{Expect, Texts, run, select};
+use fuzz::{Fleet, texts};
 use libfuzzer_sys::fuzz_target;
-use station::{AfterAlarm, Configuration, Session, Setup};
+use station::{AfterAlarm, Session, Setup};
 
 /// Events after which a run is given up.
 const MOST_EVENTS: usize = 200;
@@ -109,13 +111,27 @@ const TOKENS: &[&str] = &[
     "1E",
     "99999999999999999999",
     "#1=#[#1]\n",
+    "M98 SUB\n",
+    "M98 MAIN\n",
+    "M98 BIG.NC\n",
+    "M97P1",
+    "G16",
+    "G15",
+    "G68R30.",
+    "G69",
+    "G51P2.",
+    "G51I-1.J2.",
+    "G50",
+    "G81R1.Z-1.",
+    "K2",
+    "F99.",
 ];
 
-static MACHINE: LazyLock<Configuration> =
-    LazyLock::new(|| configuration(machine("unlimited", None), &Setup::default()));
+static FLEET: LazyLock<Fleet> = LazyLock::new(|| Fleet::new(9e6, |_| Setup::default(), false));
 
 fuzz_target!(|input: &[u8]| {
     let Some((&mode, tokens)) = input.split_last() else { return };
+    let (configuration, tokens) = FLEET.choose(tokens);
     let mut text = Vec::new();
     for &byte in tokens {
         text.extend_from_slice(TOKENS[usize::from(byte) % TOKENS.len()].as_bytes());
@@ -124,16 +140,16 @@ fuzz_target!(|input: &[u8]| {
         }
     }
     let events = |texts: Texts| {
-        let mut session = Session::new(MACHINE.clone(), texts);
+        let mut session = Session::new(configuration.clone(), texts);
         session.set_after_alarm(if mode & 1 != 0 { AfterAlarm::GoOn } else { AfterAlarm::Stand });
         session.interpreter_mut().set_loop_limit(MOST_STATEMENTS);
         session.interpreter_mut().tell_variables(mode & 2 != 0);
         select(&mut session, 0);
         run(&mut session, Expect { most_events: MOST_EVENTS, stays_inside: mode & 1 == 0 })
     };
-    let whole = events(Texts::one(text.as_slice()));
+    let whole = events(texts(&text));
     if mode & 4 != 0 {
-        let pieces = events(Texts::one(text.as_slice()).in_pieces(&[3, 50]));
+        let pieces = events(texts(&text).in_pieces(&[3, 50]));
         assert_eq!(format!("{whole:?}"), format!("{pieces:?}"));
     }
 });

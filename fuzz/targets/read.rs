@@ -6,7 +6,7 @@
 
 use fuzz::reading::{characters, check_print, read_all, said};
 use libfuzzer_sys::fuzz_target;
-use syntax::{Colon, Grammar, LowerCase, Semicolon};
+use syntax::{BlockDelete, Colon, Grammar, LowerCase, Percent, Semicolon};
 
 fuzz_target!(|input: &[u8]| {
     let Some((&mode, text)) = input.split_last() else { return };
@@ -15,6 +15,9 @@ fuzz_target!(|input: &[u8]| {
         semicolon: if bit(0) { Semicolon::Comment } else { Semicolon::EndOfBlock },
         lower_case: if bit(1) { LowerCase::Fold } else { LowerCase::Refuse },
         colon: if bit(2) { Colon::Refuse } else { Colon::ProgramNumber },
+        percent: if bit(6) { Percent::Ignore } else { Percent::EndOfTape },
+        block_delete: if bit(6) { BlockDelete::Head } else { BlockDelete::Anywhere },
+        named_call: bit(7).then_some(98),
         block_length: if bit(3) { u32::MAX } else { 40 },
         ..Grammar::default()
     };

@@ -291,8 +291,6 @@ conditions! {
     StrokeBoxOrder = "stroke-box-order",
     /// The first box of a program lacks a face.
     StrokeBoxIncomplete = "stroke-box-incomplete",
-    /// A code that the machine's wiring or builder's logic does not know. Values: code.
-    MachineCodeUnknown = "machine-code-unknown",
 }
 
 #[cfg(test)]

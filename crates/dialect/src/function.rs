@@ -84,6 +84,17 @@ impl CycleTable {
     pub fn steps_of(&self, cycle: Meaning) -> CycleSteps {
         self.steps.iter().find(|(meaning, _)| *meaning == cycle).map_or_else(Default::default, |(_, steps)| *steps)
     }
+
+    /// True if the cycle cuts in pecks of Q.
+    pub fn pecks(&self, cycle: Meaning) -> bool {
+        let pecks = |step: &CycleStep| matches!(step, CycleStep::DeepPecks | CycleStep::ChipPecks);
+        self.steps_of(cycle).iter().any(pecks)
+    }
+
+    /// True if the cycle shifts the tool off the wall.
+    pub fn shifts(&self, cycle: Meaning) -> bool {
+        self.steps_of(cycle).contains(&CycleStep::Aside)
+    }
 }
 
 /// How work coordinates come about.

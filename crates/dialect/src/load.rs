@@ -6,6 +6,7 @@ mod alarms;
 mod codes;
 mod functions;
 mod grammar;
+mod groups;
 mod members;
 mod settings;
 mod station;
@@ -17,10 +18,9 @@ use data::{DataError, Document, Table};
 use syntax::Grammar;
 
 use crate::combination::Combination;
-use crate::control::{Control, FeedSettings, FileNames, Group, GroupRule, MOST_GROUPS, Roles, TapeRules, Tolerances};
-use crate::meaning::Meaning;
+use crate::control::{Control, FileNames};
 use crate::member::Member;
-use crate::row::{Certainty, GCode, Origin, ParameterRow};
+use crate::row::{Certainty, Origin, ParameterRow};
 
 /// The text of a control's files.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -234,46 +234,25 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         true => files.read("warnings.toml", warnings::own)?,
         false => Vec::new(),
     };
-    let groups = resolve_groups(files, &head.groups, &g_codes, &parameters)?;
-    let roles = find_roles(files, &groups, &g_codes)?;
+    let groups = groups::resolve(files, &head.groups, &g_codes, &parameters)?;
+    let roles = groups::roles(files, &groups, &g_codes)?;
     let base_system = head.functions.base_code.as_deref().and_then(|name| codes::row_of_name(&g_codes, name));
-    let universal_preset = match &head.universal_preset {
-        Some((name, bit)) => Some((parameter_index(files, &parameters, name)?, *bit)),
-        None => None,
+    let index = |name: &String| parameter_index(files, &parameters, name);
+    let bit_of = |named: &Option<(String, u8)>| {
+        named.as_ref().map(|(name, bit)| Ok::<_, Vec<DataError>>((index(name)?, *bit))).transpose()
     };
-    let stroke_outside = match &head.functions.stroke_outside {
-        Some((name, bit)) => Some((parameter_index(files, &parameters, name)?, *bit)),
-        None => None,
-    };
+    let universal_preset = bit_of(&head.universal_preset)?;
+    let stroke_outside = bit_of(&head.functions.stroke_outside)?;
     let mut functions = head.functions.functions;
     if let Some(cycle) = functions::without_steps(&functions, &g_codes) {
         return Err(refuse(files, "control.toml", format!("[cycle.steps] does not say what `{cycle}` does")));
     }
-    functions.reference.before_start =
-        head.functions.before_start.as_deref().map(|name| parameter_index(files, &parameters, name)).transpose()?;
-    let mirror_setting = match &head.mirror_setting {
-        Some(name) => Some(parameter_index(files, &parameters, name)?),
-        None => None,
-    };
+    functions.reference.before_start = head.functions.before_start.as_ref().map(index).transpose()?;
+    let mirror_setting = head.mirror_setting.as_ref().map(index).transpose()?;
     let (scaling, rotation) = transforms::resolve(files, (head.scaling, head.rotation), &roles, &parameters)?;
-    let tape = match &head.tape {
-        Some(draft) => Some(resolve_tape(files, draft, &parameters)?),
-        None => None,
-    };
-    let tolerances = Tolerances {
-        cycle_clearance: parameter_index(files, &parameters, "cycle clearance")?,
-        cycle_shift: parameter_if_any(&parameters, "cycle shift direction"),
-        arc_radius: parameter_index(files, &parameters, "arc radius tolerance")?,
-        arc_end: parameter_index(files, &parameters, "arc end limit")?,
-    };
-    let feeds = FeedSettings {
-        stored: std::array::from_fn(|index| parameter_if_any(&parameters, &format!("feed F{}", index + 1))),
-        limit: parameter_if_any(&parameters, "cutting feed limit"),
-        dwell: parameter_if_any(&parameters, "dwell in revolutions"),
-        spindle_limit: parameter_if_any(&parameters, "maximum spindle speed"),
-    };
+    let tape = head.tape.as_ref().map(|draft| settings::resolve_tape(files, draft, &parameters)).transpose()?;
     let station = station::resolve(files, station, &parameters, &head.options)?;
-    let whole_units = head.whole_units.as_deref().map(|name| parameter_index(files, &parameters, name)).transpose()?;
+    let whole_units = head.whole_units.as_ref().map(index).transpose()?;
     let family = head.name.clone();
     let member = member.unwrap_or(Member {
         name: head.name,
@@ -317,8 +296,8 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         most_m_codes,
         groups,
         roles,
-        tolerances,
-        feeds,
+        tolerances: settings::tolerances(files, &parameters)?,
+        feeds: settings::feeds(&parameters),
         m_index: index_by(m_codes.iter().map(|row| row.code)),
         m_codes,
         g_codes,
@@ -347,106 +326,6 @@ fn parameter_index(files: &ControlFiles, rows: &[ParameterRow], name: &str) -> R
         .ok_or_else(|| refuse(files, "parameters.toml", format!("the parameter \"{name}\" is missing")))
 }
 
-fn resolve_tape(
-    files: &ControlFiles,
-    draft: &settings::TapeDraft,
-    parameters: &[ParameterRow],
-) -> Result<TapeRules, Vec<DataError>> {
-    let (name, bit) = &draft.block_parity;
-    let eia_codes = draft.eia_codes.iter().map(|(character, name)| {
-        if tape::PUNCTUATION.contains(character) {
-            Ok((*character, parameter_index(files, parameters, name)?))
-        } else {
-            let character = char::from(*character);
-            Err(refuse(files, "control.toml", format!("tape: `{character}` has its EIA row by the standard")))
-        }
-    });
-    Ok(TapeRules {
-        block_parity: (parameter_index(files, parameters, name)?, *bit),
-        eia_codes: eia_codes.collect::<Result<_, _>>()?,
-    })
-}
-
 fn parameter_if_any(rows: &[ParameterRow], name: &str) -> Option<usize> {
     rows.iter().position(|row| row.name == name)
-}
-
-/// The names of a group's states as rows of the G table.
-fn resolve_groups(
-    files: &ControlFiles,
-    drafts: &[codes::GroupDraft],
-    rows: &[GCode],
-    parameters: &[ParameterRow],
-) -> Result<Vec<Group>, Vec<DataError>> {
-    if drafts.len() > MOST_GROUPS {
-        return Err(refuse(files, "control.toml", format!("more than {MOST_GROUPS} modal groups")));
-    }
-    let mut groups = Vec::with_capacity(drafts.len());
-    for (index, draft) in drafts.iter().enumerate() {
-        let row = |name: &String| -> Result<Option<u8>, Vec<DataError>> {
-            if name == "keep" {
-                return Ok(None);
-            }
-            codes::row_of_name(rows, name)
-                .filter(|&row| rows[usize::from(row)].group == Some(index as u8))
-                .map(Some)
-                .ok_or_else(|| {
-                    refuse(files, "control.toml", format!("group {}: {name} is no code of it", draft.number))
-                })
-        };
-        let rule = |draft_rule: &codes::RuleDraft| -> Result<GroupRule, Vec<DataError>> {
-            let parameter = match &draft_rule.parameter {
-                None => None,
-                Some((name, bits, names)) => {
-                    let parameter = parameter_index(files, parameters, name)?;
-                    Some((parameter, bits.clone(), names.iter().map(row).collect::<Result<Vec<_>, _>>()?))
-                }
-            };
-            Ok(GroupRule { row: row(&draft_rule.code)?, parameter })
-        };
-        groups.push(Group {
-            number: draft.number,
-            name: draft.name.clone(),
-            power_on: rule(&draft.power_on)?,
-            reset: rule(&draft.reset)?,
-            emergency_stop: rule(&draft.emergency_stop)?,
-            program_end: rule(&draft.program_end)?,
-            stored: draft.stored,
-            origin: draft.origin.clone(),
-        });
-    }
-    Ok(groups)
-}
-
-fn find_roles(files: &ControlFiles, groups: &[Group], rows: &[GCode]) -> Result<Roles, Vec<DataError>> {
-    let of = |meaning: Meaning| -> Result<usize, Vec<DataError>> {
-        rows.iter()
-            .find(|row| row.meaning == meaning)
-            .and_then(|row| row.group)
-            .map(usize::from)
-            .filter(|&group| group < groups.len())
-            .ok_or_else(|| {
-                let name = Meaning::TABLE.iter().find(|(_, m)| *m == meaning).map_or("?", |(name, _)| name);
-                refuse(files, "g_codes.toml", format!("no modal code means `{name}`"))
-            })
-    };
-    Ok(Roles {
-        motion: of(Meaning::Rapid)?,
-        plane: of(Meaning::PlaneXy)?,
-        distance: of(Meaning::Absolute)?,
-        feed_mode: of(Meaning::FeedPerMinute)?,
-        units: of(Meaning::Metric)?,
-        compensation: of(Meaning::CompensationOff)?,
-        length: of(Meaning::LengthOff)?,
-        cycle: of(Meaning::CycleOff)?,
-        return_level: of(Meaning::ReturnInitial)?,
-        work: of(Meaning::WorkSystem)?,
-        stop_mode: of(Meaning::CuttingMode)?,
-        modal_macro: of(Meaning::ModalMacroOff)?,
-        scaling: of(Meaning::ScalingOff).ok(),
-        stroke: of(Meaning::StrokeCheckOn).ok(),
-        rotation: of(Meaning::RotationOff).ok(),
-        polar: of(Meaning::PolarOff).ok(),
-        surface_speed: of(Meaning::SurfaceSpeedOff).ok(),
-    })
 }

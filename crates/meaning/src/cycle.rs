@@ -59,7 +59,7 @@ pub(crate) struct Holes {
     pub start: Option<Spindle>,
     /// Which way the spindle turns after it has been stopped or oriented; `None` leaves it as it is.
     pub restart: Option<Spindle>,
-    /// The tool leaves the hole by the operator's hand.
+    /// Where the steps say so, the tool leaves the hole by the operator's hand; else the cycle brings it out.
     pub by_hand: bool,
     pub feed: Feed,
     pub rapid: RapidKind,
@@ -148,16 +148,6 @@ pub(crate) enum Step {
 /// True if the tool goes to the R level before the cycle's own steps; back boring goes there by itself, off the hole.
 pub(crate) fn begins_at_r(cycle: Meaning) -> bool {
     cycle != Meaning::BackBore
-}
-
-/// True if the cycle cuts in pecks of Q.
-pub(crate) fn needs_peck(cycle: Meaning) -> bool {
-    matches!(cycle, Meaning::Peck | Meaning::HighSpeedPeck)
-}
-
-/// True if the cycle shifts the tool off the wall.
-pub(crate) fn needs_shift(cycle: Meaning) -> bool {
-    matches!(cycle, Meaning::FineBore | Meaning::BackBore)
 }
 
 /// Takes the block's I and J into the cycle's data. The shift written last counts: I and J, or Q without them.

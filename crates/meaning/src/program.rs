@@ -22,6 +22,8 @@ pub enum ProgramKey {
 
 /// The longest name of a program's file.
 const LONGEST_NAME: usize = 64;
+/// Names that are kept. No program calls so many others; one that names more is refused as one that is not there.
+const MOST_NAMES: usize = 65_536;
 
 /// The program that a block calls by name, or what is wrong with the name.
 pub(crate) type CallName = Option<Result<ProgramKey, Condition>>;
@@ -92,6 +94,9 @@ impl Names {
             *to = from.to_ascii_uppercase();
         }
         let name = std::str::from_utf8(room).map_err(|_| Condition::ProgramName)?;
+        if self.names.len() >= MOST_NAMES && !self.by_name.contains_key(name) {
+            return Err(Condition::FileNotFound);
+        }
         Ok(ProgramKey::File { name: self.intern(name), large: large.is_some() })
     }
 
@@ -147,4 +152,21 @@ pub(crate) struct Frame {
     pub opened: bool,
     /// How many more times it runs after this one.
     pub repeats: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_are_called_are_not_kept_without_end() {
+        let files = FileNames { ending: "CNC".into(), large: None };
+        let mut names = Names::default();
+        for number in 0..MOST_NAMES + 10 {
+            let called = names.called(format!("A{number}").as_bytes(), &files, false);
+            assert_eq!(called.is_ok(), number < MOST_NAMES);
+        }
+        assert!(names.called(b"a7", &files, false).is_ok(), "a name already known");
+        assert_eq!(names.names.len(), MOST_NAMES);
+    }
 }

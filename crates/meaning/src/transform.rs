@@ -309,7 +309,7 @@ impl Reading<'_> {
 
     fn scales_levels(&self, cycle: Meaning) -> bool {
         let scaled = self.setting.fitting.policies.scaling_bore_levels == dialect::ScalingBoreLevels::Scaled;
-        scaled || !matches!(cycle, Meaning::FineBore | Meaning::BackBore)
+        scaled || !self.control().functions.cycle.shifts(cycle)
     }
 
     /// The side of the path on which the tool runs: a mirror image exchanges left and right.

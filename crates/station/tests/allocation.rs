@@ -7,9 +7,9 @@ mod watch;
 use std::fmt::Write;
 
 use machine::EventKind;
-use station::{AfterAlarm, Session, Setup, Step};
+use station::{AfterAlarm, Configuration, Session, Setup, Step};
 use testkit::{Counting, allocations_so_far};
-use watch::{Texts, configuration, machine, select};
+use watch::{Texts, configuration, load, machine, select};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -57,9 +57,29 @@ fn check(what: &str, line: impl Fn(usize) -> String) {
 }
 
 fn check_texts(what: &str, texts: Vec<Vec<u8>>) {
+    let texts = Texts { texts, ..Texts::default() };
+    check_on(what, &configuration(machine("unlimited", None), &Setup::default()), &texts);
+}
+
+/// The same on a control whose programs are files and whose blocks have classes of codes; `SUB.CNC` can be called.
+fn check_files(what: &str, line: impl Fn(usize) -> String) {
+    let machine = machine("unlimited", None);
+    let configuration = Configuration::new(load("incon-m84"), machine, &[&Setup::default()]).expect("they fit");
+    let texts = [SMALL, LARGE].map(|lines| {
+        let lines = (0..lines).map(|index| line(index) + "\n").collect::<String>();
+        format!("G90G17G21\nG54F500\nG00X0Y0Z50.\n{lines}G15G50G69\nG80G90\nM30\nN9000G91G01X1.\nX-1.\nM99\n")
+            .into_bytes()
+    });
+    let [short, long] = texts;
+    let sub = b"G91G01X1.F600\nX-1.\nM99\n".to_vec();
+    let texts =
+        Texts { texts: vec![short, long, sub], files: vec![("SUB.CNC", base::SourceId(2))], ..Texts::default() };
+    check_on(what, &configuration, &texts);
+}
+
+fn check_on(what: &str, configuration: &Configuration, texts: &Texts) {
     for after in [AfterAlarm::Stand, AfterAlarm::GoOn] {
-        let texts = Texts { texts: texts.clone(), ..Texts::default() };
-        let mut session = Session::new(configuration(machine("unlimited", None), &Setup::default()), texts);
+        let mut session = Session::new(configuration.clone(), texts.clone());
         session.set_after_alarm(after);
         for _ in 0..WARM {
             allocations(&mut session, 1);
@@ -153,5 +173,57 @@ fn macros_allocate_nothing() {
         3 => "G65P2A1.I2.\nG00X#100".to_owned(),
         4 => "#[101]=#5001\nM08".to_owned(),
         _ => "#2001=#4003\nG04P10".to_owned(),
+    });
+}
+
+#[test]
+fn transforms_and_polar_places_allocate_nothing() {
+    check_files("transforms", |n| match n % 10 {
+        0 => format!("G90G68X{}.Y0R30.", n % 50),
+        1 => "G51X0Y0Z0P2000".to_owned(),
+        2 => format!("G90G16G01X{}.Y45.", n % 40 + 1),
+        3 => "G91G01X1.Y10.".to_owned(),
+        4 => "G15".to_owned(),
+        5 => "G51X1.Y1.I-1000J2000".to_owned(),
+        6 => "G90G00X3.".to_owned(),
+        7 => "G50\nG90G00X3.Y3.".to_owned(),
+        8 => "G91G02X5.Y5.R20.F300".to_owned(),
+        _ => "G69".to_owned(),
+    });
+}
+
+#[test]
+fn cycles_at_polar_places_allocate_nothing() {
+    check_files("cycles", |n| match n % 6 {
+        0 => format!("G90G16G81X{}.Y30.Z-3.R2.F200", n % 50 + 1),
+        1 => "G91G83Y30.Z-3.R-1.Q.5K3".to_owned(),
+        2 => "G90G15".to_owned(),
+        3 => "G76X1.Y1.Z-3.R2.Q.5P10".to_owned(),
+        4 => "G84Z-2.R1.P100F300".to_owned(),
+        _ => "G80".to_owned(),
+    });
+}
+
+#[test]
+fn calls_by_name_allocate_nothing() {
+    check_files("calls by name", |n| match n % 3 {
+        0 => "M98 SUB L2".to_owned(),
+        // Every block looks for its own N9000, through the whole text.
+        1 if n < 30 => "M97P9000".to_owned(),
+        _ => "G09G01X1.".to_owned(),
+    });
+}
+
+#[test]
+fn offsets_codes_and_macros_of_files_allocate_nothing() {
+    check_files("offsets", |n| match n % 8 {
+        0 => "G10L10P1R2.5".to_owned(),
+        1 => "G90G43G00Z10.H1".to_owned(),
+        2 => "G49\nG52X1.Y1.".to_owned(),
+        3 => format!("G96S{}M03", n % 300 + 1),
+        4 => format!("#1={n}\nG01X[#1/1000]"),
+        5 => "WHILE[#1GT0]DO1\n#1=#1-#1\nG01Y#1\nEND1".to_owned(),
+        6 => "IF[#1EQ0]THEN#2=1".to_owned(),
+        _ => "G92X0Y0".to_owned(),
     });
 }

@@ -30,7 +30,7 @@ increments = { metric_mm = 0.01, inch_in = 0.001, rotary_deg = 0.01 }
 read_ahead = { blocks = 1, compensation = 1, buffering = 1 }
 nesting = { subprograms = 1, macros = 1 }
 offsets = { table = "common", highest = 9, limit_mm = 99.0 }
-cycle = { spindle_forward = 43, spindle_reverse = 44, spindle_stop = 45, spindle_orient = 46, repeats = ["L"], steps = { drill = ["feed bottom", "rapid end"] } }
+cycle = { spindle_forward = 43, spindle_reverse = 44, spindle_stop = 45, spindle_orient = 46, repeats = ["L"], steps = { drill = ["feed bottom", "rapid end"], spot = ["chip pecks", "rapid end"] } }
 combination = { most_codes = 2, most_states = 1, most_states_with_movement = 1 }
 "#;
 
@@ -65,6 +65,7 @@ const CODES: &[(u8, u8, &str, &str)] = &[
     (52, 7, "state", "length-off"),
     (54, 8, "state", "cycle-off"),
     (81, 8, "movement", "drill"),
+    (82, 8, "movement", "spot"),
     (56, 9, "state", "return-initial"),
     (60, 10, "state", "work-system"),
     (62, 11, "state", "cutting-mode"),
@@ -79,6 +80,7 @@ const ADDRESSES: &[(&str, &str)] = &[
     ("I", "kind = \"length\""),
     ("J", "kind = \"length\""),
     ("R", "kind = \"length\""),
+    ("Q", "kind = \"length\""),
     ("F", "kind = \"feed\""),
     ("P", "kind = \"time-or-number\"\nseconds = [0.0, 9.0]"),
     ("G", "kind = \"code\"\ndigits = 2\nrange = [0, 99]"),
@@ -213,6 +215,25 @@ fn its_rules_are_its_own() {
             "6 g-unknown",
             "7 g-too-many",
             "8 value-out-of-range",
+        ]
+    );
+}
+
+#[test]
+fn what_a_cycle_needs_follows_from_its_steps() {
+    let text = "G82 X2. Z-3. R1. F50\nG82 X2. Z-3. R1. Q3. F50\nM77\n";
+    assert_eq!(
+        done(text),
+        [
+            "1 cycle-peck-missing",
+            "rapid 2 0 0",
+            "rapid 2 0 1",
+            "feed 2 0 -2 f50",
+            // Back by the clearance.
+            "rapid 2 0 -1",
+            "feed 2 0 -3 f50",
+            "rapid 2 0 0",
+            "m77"
         ]
     );
 }

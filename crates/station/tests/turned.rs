@@ -13,7 +13,7 @@ use machine::EventKind;
 use proptest::prelude::*;
 use proptest::sample;
 use station::{Configuration, Session, Setup};
-use watch::{Expect, Texts, machine, run, select};
+use watch::{Expect, Texts, load, machine, run, select};
 
 /// Points that are derived differ by rounding, mm.
 const EXACTNESS_MM: f64 = 1e-6;
@@ -75,10 +75,7 @@ fn write(plane: usize, pieces: &[Piece]) -> String {
 type Move = (&'static str, [f64; 3], [f64; 2], f64);
 
 fn control() -> Arc<Control> {
-    static CONTROL: LazyLock<Arc<Control>> = LazyLock::new(|| {
-        let files = dialect::builtin_files("incon-m84").expect("its files are there");
-        Arc::new(dialect::load_control(&files).expect("they are valid"))
-    });
+    static CONTROL: LazyLock<Arc<Control>> = LazyLock::new(|| load("incon-m84"));
     CONTROL.clone()
 }
 

@@ -12,7 +12,11 @@ pub fn print_block(block: &Block, text: &[u8], out: &mut Vec<u8>) {
     let mut skips = block.skips.iter().peekable();
     let mut print_skips = |before: usize, out: &mut Vec<u8>| {
         while let Some(skip) = skips.next_if(|skip| usize::from(skip.first_word) <= before) {
-            out.extend_from_slice(&[b'/', b'0' + skip.switch]);
+            out.push(b'/');
+            // Where the sign stands at the head only, it has no number.
+            if skip.switch != 1 {
+                out.push(b'0' + skip.switch);
+            }
         }
     };
     for (index, word) in block.words.iter().enumerate() {

@@ -6,7 +6,7 @@ mod reading;
 
 use proptest::prelude::*;
 use reading::{characters, check_print, read_all, said};
-use syntax::{Block, Colon, Cursor, Grammar, LowerCase, Outcome, Semicolon, read_block};
+use syntax::{Block, BlockDelete, Colon, Cursor, Grammar, LowerCase, Outcome, Percent, Semicolon, read_block};
 
 fn grammar() -> impl Strategy<Value = Grammar> {
     (any::<bool>(), any::<bool>(), any::<bool>(), prop_oneof![Just(u32::MAX), Just(40u32), Just(128)]).prop_map(
@@ -15,6 +15,8 @@ fn grammar() -> impl Strategy<Value = Grammar> {
             lower_case: if fold { LowerCase::Fold } else { LowerCase::Refuse },
             colon: if colon { Colon::ProgramNumber } else { Colon::Refuse },
             named_call: if fold { Some(98) } else { None },
+            percent: if fold { Percent::Ignore } else { Percent::EndOfTape },
+            block_delete: if comment { BlockDelete::Head } else { BlockDelete::Anywhere },
             block_length,
             ..Grammar::default()
         },

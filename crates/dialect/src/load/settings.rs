@@ -1,9 +1,10 @@
 //! Options, policies, `parameters.toml` and `addresses.toml`.
 
-use data::Table;
+use data::{DataError, Table};
 
-use super::{origin, range};
+use super::{ControlFiles, origin, parameter_if_any, parameter_index, range, refuse};
 use crate::address::{Address, AddressKind, PointRule};
+use crate::control::{FeedSettings, TapeRules, Tolerances};
 use crate::row::{OptionRow, ParameterBit, ParameterKind, ParameterRow, PolicyRow};
 
 /// Whether a row is there on this member of the family.
@@ -98,6 +99,47 @@ pub(super) fn tape(table: &mut Table) -> TapeDraft {
         (character.bytes().next().unwrap_or(0), row.required_string("parameter"))
     });
     TapeDraft { block_parity: block_parity.unwrap_or_default(), eia_codes }
+}
+
+/// The tape rules, their parameters found.
+pub(super) fn resolve_tape(
+    files: &ControlFiles,
+    draft: &TapeDraft,
+    parameters: &[ParameterRow],
+) -> Result<TapeRules, Vec<DataError>> {
+    let (name, bit) = &draft.block_parity;
+    let eia_codes = draft.eia_codes.iter().map(|(character, name)| {
+        if tape::PUNCTUATION.contains(character) {
+            Ok((*character, parameter_index(files, parameters, name)?))
+        } else {
+            let character = char::from(*character);
+            Err(refuse(files, "control.toml", format!("tape: `{character}` has its EIA row by the standard")))
+        }
+    });
+    Ok(TapeRules {
+        block_parity: (parameter_index(files, parameters, name)?, *bit),
+        eia_codes: eia_codes.collect::<Result<_, _>>()?,
+    })
+}
+
+/// The parameters that hold tolerances and clearances.
+pub(super) fn tolerances(files: &ControlFiles, parameters: &[ParameterRow]) -> Result<Tolerances, Vec<DataError>> {
+    Ok(Tolerances {
+        cycle_clearance: parameter_index(files, parameters, "cycle clearance")?,
+        cycle_shift: parameter_if_any(parameters, "cycle shift direction"),
+        arc_radius: parameter_index(files, parameters, "arc radius tolerance")?,
+        arc_end: parameter_index(files, parameters, "arc end limit")?,
+    })
+}
+
+/// The parameters of feeds and of the spindle's speed, as far as the control has them.
+pub(super) fn feeds(parameters: &[ParameterRow]) -> FeedSettings {
+    FeedSettings {
+        stored: std::array::from_fn(|index| parameter_if_any(parameters, &format!("feed F{}", index + 1))),
+        limit: parameter_if_any(parameters, "cutting feed limit"),
+        dwell: parameter_if_any(parameters, "dwell in revolutions"),
+        spindle_limit: parameter_if_any(parameters, "maximum spindle speed"),
+    }
 }
 
 pub(super) fn addresses(root: &mut Table) -> [Option<Address>; 26] {

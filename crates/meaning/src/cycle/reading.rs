@@ -4,7 +4,7 @@ use base::{AXES, Alarm, Condition, Point};
 use dialect::{CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleStep, CycleSteps, G87Return, Meaning};
 
 use super::pattern::{Places, sin_cos_deg};
-use super::{CycleData, Holes, Spindle, needs_peck, needs_shift, store, store_shift};
+use super::{CycleData, Holes, Spindle, store, store_shift};
 use crate::block::Reading;
 use crate::command::Body;
 use crate::coordinate::LENGTH_AXIS;
@@ -185,7 +185,7 @@ impl Reading<'_> {
         if let Some(cycle) = cycle {
             self.levels(cycle, drilling, &mut holes)?;
             self.spindle(cycle, &mut holes);
-            if needs_shift(cycle) {
+            if self.control().functions.cycle.shifts(cycle) {
                 self.shift(&mut holes)?;
             }
             end_point[drilling] = holes.end;
@@ -203,7 +203,7 @@ impl Reading<'_> {
         let (Some(r), Some(bottom)) = (data.r, data.bottom) else {
             return Err(self.motion_alarm(Condition::CycleLevelMissing));
         };
-        if needs_peck(cycle) && data.peck <= 0.0 {
+        if control.functions.cycle.pecks(cycle) && data.peck <= 0.0 {
             return Err(self.q_alarm(Condition::CyclePeckMissing));
         }
         // After back boring the tool would stand at R under the part.
@@ -226,11 +226,7 @@ impl Reading<'_> {
             None if policies.cycle_spindle_unknown == CycleSpindleUnknown::Forward => Some(Spindle::Forward),
             direction => direction,
         };
-        holes.by_hand = match cycle {
-            Meaning::BoreDwellManualOut => true,
-            Meaning::BoreManualOut => policies.g87_return == G87Return::Manual,
-            _ => false,
-        };
+        holes.by_hand = cycle != Meaning::BoreManualOut || policies.g87_return == G87Return::Manual;
         holes.start = self.spindle_through(&holes.steps);
     }
 

@@ -26,6 +26,8 @@ pub struct Texts {
     pub texts: Vec<Vec<u8>>,
     /// Numbers of programs, and the sources in which they stand, beside those found in open texts.
     pub programs: Vec<(u32, SourceId)>,
+    /// File names of programs, in capitals, and the sources in which they stand.
+    pub files: Vec<(&'static str, SourceId)>,
     /// Sizes of the pieces.
     pub pieces: Vec<usize>,
     /// How many pieces have been handed out.
@@ -68,8 +70,14 @@ impl Library for Texts {
     }
 
     fn find_program(&mut self, wanted: Wanted) -> Result<Option<SourceId>, LibraryError> {
-        let Wanted::Number(number, _) = wanted else { return Ok(None) };
-        Ok(self.programs.iter().find(|(known, _)| *known == number).map(|&(_, source)| source))
+        Ok(match wanted {
+            Wanted::Number(number, _) => {
+                self.programs.iter().find(|(known, _)| *known == number).map(|&(_, source)| source)
+            }
+            Wanted::File(name) => {
+                self.files.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|&(_, source)| source)
+            }
+        })
     }
 }
 
@@ -99,12 +107,15 @@ pub fn machine(name: &str, travel: Option<f64>) -> MachineFile {
     machine
 }
 
-/// The control that all this is done with, loaded once.
+/// A built-in control.
+pub fn load(name: &str) -> Arc<Control> {
+    let files = dialect::builtin_files(name).expect("its files are there");
+    Arc::new(dialect::load_control(&files).expect("they are valid"))
+}
+
+/// The control that most of this is done with, loaded once.
 pub fn control() -> Arc<Control> {
-    static CONTROL: LazyLock<Arc<Control>> = LazyLock::new(|| {
-        let files = dialect::builtin_files("yasnac-mx1").expect("its files are there");
-        Arc::new(dialect::load_control(&files).expect("they are valid"))
-    });
+    static CONTROL: LazyLock<Arc<Control>> = LazyLock::new(|| load("yasnac-mx1"));
     CONTROL.clone()
 }
 

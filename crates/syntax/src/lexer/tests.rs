@@ -46,7 +46,7 @@ fn the_tape_sign_is_a_block_of_its_own() {
 
 #[test]
 fn block_delete_stands_anywhere() {
-    assert_eq!(blocks("/G1X1.\nG0/3X2.\n"), ["1:1 /1G1X1.", "2:1 G0/3X2."]);
+    assert_eq!(blocks("/G1X1.\nG0/3X2.\n"), ["1:1 /G1X1.", "2:1 G0/3X2."]);
 }
 
 #[test]
