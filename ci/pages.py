@@ -10,10 +10,6 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-CERTAINTY = {
-    "S": "stated in the MX1 manual", "J": "J50M manual", "P": "PC NC manual", "L": "LX3 manual", "H": "Haas manual",
-    "Y": "known of the family, no page seen", "F": "assumed: Fanuc practice", "D": "decided here",
-}
 SHOWN = 40  # lines of a result
 
 
@@ -29,8 +25,10 @@ class Control:
         self.alarms = {row["name"]: row for row in read("alarms")["alarm"]}
         self.options = {f"option {row['name']}": row for row in self.head["option"]}
         self.policies = {row["name"]: row for row in self.head["policy"]}
+        self.parameters = {f"parameter {row['name']}": row for row in read("parameters")["parameter"] if "name" in row}
         self.groups = {row["number"]: row for row in self.head["group"]}
-        self.pages = read("pages")["page"]
+        pages = read("pages")
+        self.pages, self.marks = pages["page"], pages["certainty"]
         corpus = ROOT / "cases" / name
         rules = tomllib.loads((corpus / "rules.toml").read_text(encoding="utf-8"))
         self.rules = {row["name"]: row["text"] for kind in ("rule", "table", "program") for row in rules.get(kind, [])}
@@ -47,8 +45,8 @@ def table(head: list[str], rows: list[list[str]]) -> list[str]:
     return [line(head), line(["---"] * len(head)), *map(line, rows), ""]
 
 
-def certainty(row: dict) -> str:
-    return f"{row['certainty']} ({CERTAINTY[row['certainty']]})"
+def certainty(control: Control, row: dict) -> str:
+    return f"{row['certainty']} ({control.marks[row['certainty']]})"
 
 
 def codes(control: Control, covers: list[str]) -> list[str]:
@@ -62,12 +60,13 @@ def codes(control: Control, covers: list[str]) -> list[str]:
                 rule = control.groups[group]
                 state = "in force at power-on" if rule["power_on"] == name else ""
                 if "power_on_parameter" in rule:
-                    state = f"power-on by #{rule['power_on_parameter'].get('number', '')}"
+                    parameter = rule["power_on_parameter"]
+                    state = "power-on by " + (f"#{parameter['number']}" if "number" in parameter else parameter["name"])
             division = row.get("option") or row.get("division", "basic")
-            rows.append([name, row["text"], kind, division, state, certainty(row), row["source"]])
+            rows.append([name, row["text"], kind, division, state, certainty(control, row), row["source"]])
         elif row := control.m.get(name):
             out = "goes to the machine" if row["to_machine"] else "inside the control"
-            rows.append([name, row["text"], out, "", "", certainty(row), row["source"]])
+            rows.append([name, row["text"], out, "", "", certainty(control, row), row["source"]])
     return table(["code", "what it does", "kind", "belongs to", "state", "certainty", "source"], rows)
 
 
@@ -79,7 +78,7 @@ def silent(control: Control, covers: list[str]) -> list[str]:
             seen.add(policy)
             row = control.policies[policy]
             values = ", ".join(f"**{value}**" if value == row["default"] else value for value in row["values"])
-            rows.append([f"`{policy}`", values, row["text"], certainty(row)])
+            rows.append([f"`{policy}`", values, row["text"], certainty(control, row)])
     return table(["policy", "values (default bold)", "where the maker's text is silent", "certainty"], rows)
 
 
@@ -103,7 +102,9 @@ def example(control: Control, name: str) -> list[str]:
     case = control.cases[name]
     program = next((folder / file for file in ("in.nc", "a.nc") if (folder / file).is_file()), None)
     lines = ["## Example", "", f"{case['why'][0].upper()}{case['why'][1:].rstrip('.')}.", ""]
-    if arguments := case.get("arguments"):
+    said = ["--control", case["control"]] if "control" in case else []
+    quoted = lambda word: f'"{word}"' if " " in word else word
+    if arguments := said + [quoted(word) for word in case.get("arguments", [])]:
         lines += ["Set up with `" + " ".join(arguments) + "`.", ""]
     if program:
         lines += ["```text", program.read_text(encoding="latin-1").replace("\r", "").rstrip(), "```", ""]
@@ -140,18 +141,23 @@ def page_text(controls: list[Control], control: Control, page: dict) -> str:
     lines += table(["word", "says"], [word.split(": ", 1) for word in page["words"]])
     if found := codes(control, covers):
         lines += ["## Codes", "", *found]
-    if page["example"]:
+    if page["example"] in control.cases:
         lines += example(control, page["example"])
     rules = [[name, control.rules[name]] for name in covers if name in control.rules]
     if rules:
         lines += ["## Rules", "", *table(["rule", "says"], rules)]
-    options = [[name.removeprefix("option "), row["text"], "yes" if row["default"] else "no", certainty(row)]
+    options = [[name.removeprefix("option "), row["text"], "yes" if row["default"] else "no", certainty(control, row)]
                for name in covers if (row := control.options.get(name))]
     if options:
         lines += ["## Options", "", *table(["option", "what it is", "fitted as it comes", "certainty"], options)]
+    parameters = [[name.removeprefix("parameter "), ", ".join(row.get("values", [])) or row.get("default", 0), row["text"],
+                   certainty(control, row)] for name in covers if (row := control.parameters.get(name))]
+    if parameters:
+        lines += ["## Parameters", "", *table(["parameter", "values, or value as it comes", "what it does", "certainty"], parameters)]
     if found := silent(control, covers):
         lines += ["## Where the manual is silent", "", *found]
-    alarms = [[name, row.get("number", ""), row["text"], certainty(row)] for name in covers if (row := control.alarms.get(name))]
+    alarms = [[name, row.get("number", ""), row["text"], certainty(control, row)]
+              for name in covers if (row := control.alarms.get(name))]
     if alarms:
         lines += ["## Alarms", "", *table(["alarm", "number", "text", "certainty"], alarms)]
     if found := by_control(controls, page, control):
@@ -184,6 +190,8 @@ def main() -> int:
         missing = [code for code, row in {**control.g, **control.m}.items()
                    if row.get("division") != "sibling" and not any(code in page["covers"] for page in control.pages)]
         faults += [f"{control.name}: {code} stands on no page" for code in missing]
+        faults += [f"{control.name}: the page {page['name']} has no example"
+                   for page in control.pages if page["form"] and page["example"] not in control.cases]
         wanted = {f"{page['name']}.md": page_text(controls, control, page) for page in control.pages}
         wanted["README.md"] = index(control)
         folder = ROOT / "docs" / control.name
