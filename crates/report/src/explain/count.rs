@@ -31,7 +31,9 @@ pub fn count(here: &Here, letter: u8, value: f64) -> Option<String> {
         b'P' if here.has_code(Meaning::ScalingOn) => format!("factor of scaling: {}", plain(value / 1000.0, 3)),
         b'P' if shot == Some(Meaning::OtherReferenceReturn) => format!("reference point {count}"),
         b'Q' if here.has_m(MMeaning::SubprogramCall) => format!("begins at block N{count} of that program"),
-        b'Q' if matches!(here.cycle(), Some(Meaning::Peck | Meaning::HighSpeedPeck)) => "depth of each cut".to_owned(),
+        b'Q' if here.cycle().is_some_and(|cycle| here.control.functions.cycle.pecks(cycle)) => {
+            "depth of each cut".to_owned()
+        }
         b'Q' if shifts(here) => "shift away from the wall, spindle oriented".to_owned(),
         b'L' if calls || here.has_m(MMeaning::InternalCall) => format!("{count} times"),
         b'L' if is_pattern(shot) => format!("{} holes", plain(value.abs(), 0)),

@@ -219,7 +219,7 @@ fn offset(here: &Here, which: usize, uses: fn(Meaning) -> Option<f64>, what: &st
 }
 
 pub(super) fn shifts(here: &Here) -> bool {
-    matches!(here.cycle(), Some(Meaning::FineBore | Meaning::BackBore))
+    here.cycle().is_some_and(|cycle| here.control.functions.cycle.shifts(cycle))
 }
 
 fn cuts_circle(code: Option<Meaning>) -> bool {
