@@ -181,7 +181,7 @@ impl Reader {
                 Some(index) => {
                     let Some(line) = self.store.line(index) else { return Read::Ended };
                     self.store.load(line, &mut self.block);
-                    self.called = line.called;
+                    self.called = line.called.get();
                     Some(index)
                 }
                 None => match self.read_text(&frame, &mut unsound) {

@@ -1,5 +1,7 @@
 //! From a text to a block at hand: read, compiled and kept, or taken from what was kept.
 
+use std::rc::Rc;
+
 use super::rows::Unsound;
 use super::{Read, Reader};
 use crate::block::cut_by_block_delete;
@@ -78,7 +80,7 @@ impl Reader {
 
     /// Carries out a kept block: its statement, or its words with their variables' values.
     pub(super) fn take_line(&mut self, index: u32, frame: &Frame, command: &mut Command) -> Option<Read> {
-        let line = *self.store.line(index)?;
+        let line = Rc::clone(self.store.line(index)?);
         if line.statement.is_some() {
             if let Some(word) = self.block.words.iter().find(|word| !matches!(word.letter, b'N' | b'O')) {
                 return self.refuse_statement((Condition::MacroInBlock, word.extent, [0.0; 3]), frame, command);

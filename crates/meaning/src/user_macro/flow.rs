@@ -1,5 +1,7 @@
 //! Statements carried out by the reader: variables written, jumps taken, loops turned.
 
+use std::rc::Rc;
+
 use base::{Alarm, AxisSet, Condition, Place};
 use dialect::VariableMeaning;
 use syntax::{Cursor, Extent};
@@ -49,7 +51,7 @@ impl Reader {
 
     /// Carries a kept statement out. `None` reads on.
     pub(crate) fn take_statement(&mut self, index: u32, command: &mut Command) -> Option<Read> {
-        let line = *self.store.line(index)?;
+        let line = Rc::clone(self.store.line(index)?);
         match self.carry_out(index, &line) {
             Ok(Next::Wait) => None,
             Ok(next) => {
@@ -163,7 +165,7 @@ impl Reader {
         let here = line.start.line;
         let (first, last) = match self.calls.loops.last() {
             Some(open) => (open.head.line, open.after.line.saturating_sub(1).max(here)),
-            None => (line.target.map_or(here, |target| target.cursor.line.min(here)), here),
+            None => (line.target.get().map_or(here, |target| target.cursor.line.min(here)), here),
         };
         let values = [self.loop_limit as f64, first as f64, last as f64];
         Trouble::Refused(Condition::EndlessLoop, line.extent, values)
@@ -284,7 +286,7 @@ impl Reader {
                 (variable_number(value, place)?, true)
             }
         };
-        let target = match line.target {
+        let target = match line.target.get() {
             Some(target) if !computed => target,
             _ => {
                 let frame = self.frame();
@@ -342,7 +344,7 @@ impl Reader {
         let depth = self.calls.frames.len();
         let head = Cursor { skipping: false, ..line.start };
         let open = self.calls.loops.last().is_some_and(|open| open.depth == depth && open.head.offset == head.offset);
-        let after = match line.target {
+        let after = match line.target.get() {
             Some(target) => target.cursor,
             None => {
                 let goal = Goal::LoopEnd { source: self.frame().source, from: line.next, number };

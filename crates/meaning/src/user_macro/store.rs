@@ -1,5 +1,8 @@
 //! Blocks that were compiled, by their place: a loop's statements and words are not read from its text anew.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use base::SourceId;
 use syntax::{Block, Cursor, Extent, Value, Word};
 
@@ -23,7 +26,7 @@ const NOTHING: u32 = u32::MAX;
 pub(crate) const UNFOUND: u64 = u64::MAX;
 
 /// One kept block.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(crate) struct Line {
     source: SourceId,
     /// Where reading stood before it.
@@ -36,7 +39,7 @@ pub(crate) struct Line {
     words: (u32, u32),
     pub statement: Option<Statement>,
     /// The program that it calls by name, and where the name stands.
-    pub called: CallName,
+    pub called: Cell<CallName>,
     call_name: Option<Extent>,
     /// The same as it was recognised.
     recognised: Option<syntax::Statement>,
@@ -48,7 +51,7 @@ pub(crate) struct Line {
     /// Words with variables stand in it.
     pub has_runs: bool,
     /// Where its jump leads or its loop ends, once that has been looked for.
-    pub target: Option<Target>,
+    pub target: Cell<Option<Target>>,
 }
 
 /// What a kept statement has found out once for all.
@@ -63,7 +66,10 @@ pub(crate) struct Target {
 #[derive(Default)]
 pub(crate) struct Store {
     pub code: Code,
-    lines: Vec<Line>,
+    /// Shared, so that a line can be carried out while the reader changes, without being copied; behind the first
+    /// `count` stand those that were forgotten, for their room.
+    lines: Vec<Rc<Line>>,
+    count: usize,
     words: Vec<Word>,
     /// The run of every kept word that has one.
     runs: Vec<Option<Run>>,
@@ -73,43 +79,43 @@ pub(crate) struct Store {
 
 impl Store {
     pub fn is_empty(&self) -> bool {
-        self.lines.is_empty()
+        self.count == 0
     }
 
     pub fn clear(&mut self) {
         self.code.clear();
-        self.lines.clear();
+        self.count = 0;
         self.words.clear();
         self.runs.clear();
         self.index.fill(NOTHING);
         self.last = 0;
     }
 
-    pub fn line(&self, index: u32) -> Option<&Line> {
-        self.lines.get(index as usize)
+    pub fn line(&self, index: u32) -> Option<&Rc<Line>> {
+        self.lines.get(index as usize).filter(|_| (index as usize) < self.count)
     }
 
     /// Notes what a statement has found out.
-    pub fn set_target(&mut self, index: u32, target: Target) {
-        if let Some(line) = self.lines.get_mut(index as usize) {
-            line.target = Some(target);
+    pub fn set_target(&self, index: u32, target: Target) {
+        if let Some(line) = self.line(index) {
+            line.target.set(Some(target));
         }
     }
 
     /// Notes the program that a kept block calls by name.
-    pub fn set_called(&mut self, index: u32, called: CallName) {
-        if let Some(line) = self.lines.get_mut(index as usize) {
-            line.called = called;
+    pub fn set_called(&self, index: u32, called: CallName) {
+        if let Some(line) = self.line(index) {
+            line.called.set(called);
         }
     }
 
     /// The kept block that begins where reading stands.
     #[inline]
     pub fn find(&mut self, source: SourceId, at: u64) -> Option<u32> {
-        let is_it = |line: &Line| line.at == at && line.source == source;
+        let is_it = |line: &Rc<Line>| line.at == at && line.source == source;
         // Blocks were mostly kept one after the other.
         let following = self.last + 1;
-        if self.lines.get(following as usize).is_some_and(is_it) {
+        if (following as usize) < self.count && self.lines.get(following as usize).is_some_and(is_it) {
             self.last = following;
             return Some(following);
         }
@@ -134,7 +140,7 @@ impl Store {
         block: &Block,
         text: &[u8],
     ) -> Result<u32, Trouble> {
-        if self.lines.len() >= MOST_LINES || self.code.len() >= MOST_OPS {
+        if self.count >= MOST_LINES || self.code.len() >= MOST_OPS {
             self.clear();
         }
         let before = (self.code.len(), self.words.len());
@@ -149,7 +155,7 @@ impl Store {
             }
         };
         let extent = block.statement.map_or_else(Extent::default, |statement| statement.extent);
-        self.lines.push(Line {
+        let kept = Line {
             source,
             at,
             start: block.start,
@@ -158,16 +164,24 @@ impl Store {
             sequence: sequence_of(block),
             words: (before.1 as u32, self.words.len() as u32),
             statement,
-            called: None,
+            called: Cell::new(None),
             call_name: block.call_name,
             recognised: block.statement,
             extent,
             comment: block.comments.iter().copied().find(|comment| comment.at > extent.at).unwrap_or_default(),
             plain: statement.is_some() && block.skips.is_empty() && block.words.iter().all(|word| word.letter == b'N'),
             has_runs,
-            target: None,
-        });
-        let line = (self.lines.len() - 1) as u32;
+            target: Cell::new(None),
+        };
+        match self.lines.get_mut(self.count) {
+            Some(room) => match Rc::get_mut(room) {
+                Some(forgotten) => *forgotten = kept,
+                None => *room = Rc::new(kept),
+            },
+            None => self.lines.push(Rc::new(kept)),
+        }
+        self.count += 1;
+        let line = (self.count - 1) as u32;
         if at != UNFOUND {
             self.enter(source, at, line);
         }

@@ -1,5 +1,7 @@
 //! Words with variables: their values become numbers before the block is given its meaning.
 
+use std::rc::Rc;
+
 use base::{Condition, Decimal};
 use dialect::PointRule;
 use syntax::Value;
@@ -14,7 +16,7 @@ impl Reader {
     /// Puts numbers in the place of the variables of the block at hand; a word with a blank is not there at all.
     pub(crate) fn resolve_words(&mut self, line: u32) -> Result<(), Trouble> {
         self.word_values.clear();
-        let Some(&line) = self.store.line(line) else { return Ok(()) };
+        let Some(line) = self.store.line(line).map(Rc::clone) else { return Ok(()) };
         if !line.has_runs {
             return Ok(());
         }
