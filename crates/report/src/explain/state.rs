@@ -198,11 +198,11 @@ impl List<'_> {
 }
 
 impl List<'_> {
-    /// One factor, or that of each axis where they differ.
+    /// One factor, or that of each axis where they differ; 1 where nothing is scaled.
     fn factors(&mut self, transform: &Transform) {
-        let first = transform.factor[0];
         let scaled =
             || self.axes.iter().zip(transform.factor).enumerate().filter(|(axis, _)| transform.scaled.has(*axis));
+        let first = scaled().next().map_or(1.0, |(_, (_, factor))| factor);
         let value = if scaled().all(|(_, (_, factor))| factor == first) {
             plain(first, 3)
         } else {
