@@ -255,6 +255,24 @@ conditions! {
     IntermediatePointMissing = "intermediate-point-missing",
 
     // The skip signal.
+    /// An arc would begin tool radius compensation.
+    ArcStartsCompensation = "arc-starts-compensation",
+    /// An arc would end tool radius compensation.
+    ArcEndsCompensation = "arc-ends-compensation",
+    /// Another plane while tool radius compensation is active.
+    PlaneInCompensation = "plane-in-compensation",
+    /// G28, G30 or G53 while tool radius compensation is active, on a control that refuses it. Values: the code.
+    MachinePlaceInCompensation = "machine-place-in-compensation",
+    /// An arc whose inside the tool does not fit into. Values: the arc's radius, the tool's radius.
+    InnerArcTooSmall = "inner-arc-too-small",
+    /// The tool's centre would run an element backwards. Values: by how much, the tool's radius.
+    CompensatedPathReversed = "compensated-path-reversed",
+    /// The tool's centre would not close a full circle. Values: the gap.
+    CompensatedCircleOpen = "compensated-circle-open",
+    /// The tool's paths along two elements do not meet inside their corner. Values: the tool's radius.
+    CompensatedPathsApart = "compensated-paths-apart",
+    /// The tool would cut an element that comes after the next. Values: by how much, the tool's radius.
+    LaterPathCut = "later-path-cut",
     /// G31, or centring, while tool radius compensation is active.
     SkipInCompensation = "skip-in-compensation",
     /// A skip move went to its end without the signal.

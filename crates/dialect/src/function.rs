@@ -133,6 +133,17 @@ pub struct DataKinds {
     pub radius: Option<i64>,
 }
 
+/// What a control makes of tool radius compensation where others do otherwise.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct CompensationRules {
+    /// G28 to G30 and G53 are refused; otherwise they drop the offset until the next movement in the plane.
+    pub refuses_machine_places: bool,
+    /// An arc whose inside is as large as the tool is refused too, not only a smaller one.
+    pub refuses_equal_arc: bool,
+    /// A full circle must close on the tool's path too.
+    pub circles_close: bool,
+}
+
 /// The functions whose form is a control's own.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Functions {
@@ -144,6 +155,8 @@ pub struct Functions {
     pub reference: ReferenceRules,
     /// Data that a program writes.
     pub data: DataKinds,
+    /// Tool radius compensation.
+    pub compensation: CompensationRules,
     /// The corners of the stroke box stand in any order.
     pub any_corners: bool,
 }

@@ -34,17 +34,20 @@ pub use control::{
 };
 pub use fitting::{Fitting, FittingError, ParameterSetting};
 pub use fix::{Fix, Refused, Rewritten};
-pub use function::{CycleStep, CycleSteps, CycleTable, DataKinds, Functions, MOST_STEPS, ReferenceRules, WorkRules};
+pub use function::{
+    CompensationRules, CycleStep, CycleSteps, CycleTable, DataKinds, Functions, MOST_STEPS, ReferenceRules, WorkRules,
+};
 pub use load::{ControlFiles, load_control};
 pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};
 pub use member::AxisLetter;
 pub use occasion::{Fate, Occasion, StateItem, StateRow};
 pub use policy::{
-    ArcWithoutCentre, CallFromLarge, CallL0, CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleWithMotion,
-    DwellVariable, FeedModeChange, G87Return, G92System, InchFeedInteger, LengthWithoutZ, M01OffOutput, MOver99,
-    MdiCalls, OneShotCompany, Options, Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter,
-    ProgrammedPosition, ReferenceVia, ResetPointer, ScalingBoreLevels, ScalingCompany, ScalingNegativeRatio,
-    SkipWithoutSignal, StrokeCheck, SubprogramTextEnd, TipSingularity, UnitChangeOffsets,
+    ArcWithoutCentre, CallFromLarge, CallL0, CompensationRestart, CompensationStart, CornerMode, CycleInCompensation,
+    CycleL0Moves, CycleSpindleUnknown, CycleWithMotion, DwellVariable, FeedModeChange, G87Return, G92System,
+    InchFeedInteger, LengthWithoutZ, M01OffOutput, MOver99, MdiCalls, OneShotCompany, Options, Policies,
+    PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ProgrammedPosition, ReferenceVia,
+    ResetPointer, ScalingBoreLevels, ScalingCompany, ScalingNegativeRatio, SkipWithoutSignal, StrokeCheck,
+    SubprogramTextEnd, TipSingularity, UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Class, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,

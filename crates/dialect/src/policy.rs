@@ -76,6 +76,27 @@ policies! {
         /// Made at the programmed places, without compensation.
         Ignore = "ignore",
     }
+    /// How the block that begins tool radius compensation ends.
+    compensation_start: CompensationStart = "compensation-start" {
+        /// Square to the next path at its start.
+        Square = "a",
+        /// At an outside corner as the corner itself would be gone round.
+        Corner = "b",
+    }
+    /// How outside corners are gone round before a program has said it by M96 or M97.
+    corner_mode: CornerMode = "corner-mode" {
+        /// Through the intersection, as M97.
+        Intersection = "intersection",
+        /// On an arc, as M96.
+        Arc = "arc",
+    }
+    /// How a path is taken up again where the tool has stopped square to the path before.
+    compensation_restart: CompensationRestart = "compensation-restart" {
+        /// Straight from where the tool stands to the end of the block.
+        Direct = "direct",
+        /// First round an outside corner, as without the stop.
+        Corner = "corner",
+    }
     /// What becomes of a displacement by G45 to G48 in the next absolute block.
     position_offset_absolute: PositionOffsetAbsolute = "position-offset-absolute" {
         /// The block goes to its programmed point.

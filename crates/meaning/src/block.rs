@@ -145,9 +145,7 @@ pub(crate) fn read_meaning(
         Some(Meaning::CompensationRight) => Side::Right,
         _ => Side::Off,
     };
-    if reading.command.side != Side::Off {
-        reading.note_plane();
-    }
+    reading.check_plane()?;
     let wording = &mut reading.command.wording;
     (wording.groups, wording.one_shot) = (reading.groups_written, reading.one_shot.map(|(code, _)| code));
     if let Some(modal) = reading.macro_call_kind() {
@@ -292,7 +290,7 @@ impl Reading<'_> {
         self.check_tip()?;
         self.words_taken = self.groups_written & self.setting.transform_groups != 0 && self.take_transforms()?;
         self.words_taken |= self.stroke_box()?;
-        self.exchange_side();
+        self.take_offset();
         self.length_change = self.change_length_offset()?;
         let control = self.control();
         let motion = control.in_force(&self.next.groups, roles.motion).unwrap_or(Meaning::Rapid);
@@ -376,15 +374,6 @@ impl Reading<'_> {
             }
             Err((condition, values)) => Err(self.words.alarm(condition, facts.letter).with(values).on_axis(axis)),
         }
-    }
-
-    /// Notes the two axes in which compensation offsets the path.
-    fn note_plane(&mut self) {
-        let mut axes = AxisSet::NONE;
-        for axis in self.plane().letters().iter().filter_map(|&letter| self.setting.facts.axis(letter)) {
-            axes.add(axis);
-        }
-        self.command.plane = axes;
     }
 
     /// Notes where the axis words stand and what is known now.

@@ -8,6 +8,7 @@ use crate::centring::Centring;
 use crate::circle_cutting::CircleCut;
 use crate::cycle::Holes;
 use crate::data_setting::DataWrite;
+use crate::element::Offset;
 use crate::kinematics::Kinematics;
 use crate::operation::{CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
 use crate::program::Frame;
@@ -152,8 +153,10 @@ pub struct Command {
     pub(crate) stops_reading: bool,
     /// Tool radius compensation in force, as it is seen on the machine: a mirror image has exchanged left and right.
     pub(crate) side: Side,
-    /// The two axes of the plane in force, while compensation is.
-    pub(crate) plane: AxisSet,
+    /// How the tool runs beside the path, while it does.
+    pub(crate) offset: Option<Offset>,
+    /// Axes along which the block goes to its own place, whatever the tool's offset was.
+    pub(crate) drops: AxisSet,
     /// Where each axis' word stands in the block.
     pub(crate) axis_words: [Extent; AXES],
     /// Axes written absolutely.

@@ -123,8 +123,7 @@ impl Expansion {
         };
         out.block = command.block;
         out.place = command.place;
-        out.side = command.side;
-        out.plane = command.plane;
+        out.compensated = command.offset.is_some();
         out.stroke_check = command.stroke_check;
         out.from_unknown = command.from_unknown;
         true

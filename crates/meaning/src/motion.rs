@@ -64,6 +64,7 @@ impl Reading<'_> {
         if !self.absolute || axes.is_empty() {
             return Ok(());
         }
+        self.leave_offset(axes)?;
         let mut to = self.next.machine;
         for axis in axes.iter() {
             to[axis] = self.axis_word(axis)?.0;

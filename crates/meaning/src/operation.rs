@@ -292,10 +292,8 @@ pub struct Operation {
     pub place: Place,
     /// What happens.
     pub act: Act,
-    /// Tool radius compensation in force.
-    pub side: Side,
-    /// The two axes of the plane in force, while compensation is.
-    pub plane: AxisSet,
+    /// Tool radius compensation is in force: the path stage looks at the block itself.
+    pub compensated: bool,
     /// The move ends where the skip signal comes; the machine is asked for the place before anything else.
     pub until_signal: bool,
     /// The second stored stroke area is checked (G22).
@@ -313,8 +311,7 @@ impl Default for Operation {
             block: 0,
             place: Place::default(),
             act: Act::Close(Close::Next),
-            side: Side::Off,
-            plane: AxisSet::NONE,
+            compensated: false,
             until_signal: false,
             stroke_check: false,
             from_unknown: false,

@@ -28,6 +28,11 @@ impl Queue {
         if self.len == 0 { None } else { self.ring.get(self.front) }
     }
 
+    /// The command so many behind the one being executed.
+    pub fn behind(&self, index: usize) -> Option<&Command> {
+        if index < self.len { self.ring.get((self.front + index) % HELD) } else { None }
+    }
+
     /// The command being executed, to correct where it ends.
     pub fn front_mut(&mut self) -> Option<&mut Command> {
         if self.len == 0 { None } else { self.ring.get_mut(self.front) }

@@ -350,6 +350,8 @@ impl Reader {
         command.stops_reading = false;
         command.absolute = AxisSet::NONE;
         command.returned = AxisSet::NONE;
+        command.offset = None;
+        command.drops = AxisSet::NONE;
         command.wording = Wording::default();
         command.from_unknown = !self.state.unknown.axes.is_empty();
     }
@@ -397,6 +399,7 @@ impl Reader {
         command.finish = Finish::End(EndKind::Text);
         command.after = *self.state;
         command.side = Side::Off;
+        command.offset = None;
         command.frame = *frame;
         command.here = frame.cursor;
         command.called = self.calls.frames.len() > 1;
@@ -421,7 +424,8 @@ pub(crate) fn empty_command(state: &State) -> Command {
         finish: Finish::Next,
         stops_reading: false,
         side: Side::Off,
-        plane: AxisSet::NONE,
+        offset: None,
+        drops: AxisSet::NONE,
         axis_words: [syntax::Extent::default(); AXES],
         absolute: AxisSet::NONE,
         returned: AxisSet::NONE,

@@ -54,6 +54,7 @@ impl Reading<'_> {
 
     fn return_to(&mut self, which: usize) -> Result<AxisSet, Alarm> {
         let axes = self.reference_axes()?;
+        self.leave_offset(axes)?;
         let mut to = self.next.machine;
         let via = self.via_targets(axes)?;
         for axis in axes.iter() {
@@ -79,6 +80,7 @@ impl Reading<'_> {
     /// G29: through the remembered intermediate point to the given one, from which an incremental word counts.
     pub fn return_from_reference(&mut self) -> Result<(), Alarm> {
         let axes = self.reference_axes()?;
+        self.leave_offset(axes)?;
         for axis in axes.iter() {
             if !self.next.reference.remembered.has(axis) {
                 return Err(self.axis_alarm(Condition::IntermediatePointMissing, axis));

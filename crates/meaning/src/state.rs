@@ -54,6 +54,8 @@ pub struct State {
     pub h: u32,
     /// D.
     pub d: u32,
+    /// The radius that D called for when it or the side of compensation was programmed last, counts.
+    pub radius: f64,
     /// Where the block ends: machine coordinates, every offset applied.
     pub machine: Point,
     /// Origin of the base work system.
@@ -119,6 +121,7 @@ impl State {
             index: 0,
             h: 0,
             d: 0,
+            radius: 0.0,
             machine,
             base_origin,
             common_shift: [0.0; AXES],

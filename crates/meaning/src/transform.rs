@@ -10,7 +10,6 @@ use dialect::Meaning;
 
 use crate::block::Reading;
 use crate::cycle::pattern::sin_cos_deg;
-use crate::operation::Side;
 use crate::setting::Setting;
 use crate::state::State;
 
@@ -310,19 +309,6 @@ impl Reading<'_> {
     fn scales_levels(&self, cycle: Meaning) -> bool {
         let scaled = self.setting.fitting.policies.scaling_bore_levels == dialect::ScalingBoreLevels::Scaled;
         scaled || !self.control().functions.cycle.shifts(cycle)
-    }
-
-    /// The side of the path on which the tool runs: a mirror image exchanges left and right.
-    pub fn exchange_side(&mut self) {
-        if self.command.side == Side::Off || self.next.transform.is_plain() {
-            return;
-        }
-        let axes = self.plane().letters().map(|letter| self.setting.facts.axis(letter));
-        if let [Some(u), Some(v)] = axes
-            && self.next.transform.turns_over([u, v])
-        {
-            self.command.side = if self.command.side == Side::Left { Side::Right } else { Side::Left };
-        }
     }
 }
 

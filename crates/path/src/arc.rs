@@ -35,26 +35,30 @@ const SEARCH_EXACTNESS: f64 = 1e-9;
 /// Halvings of a whole turn down to the last digit, for spirals that grow faster than they turn.
 const HALVINGS: usize = 56;
 
+/// The angle swept from one spoke to another, radians, + counter-clockwise.
+pub(crate) fn sweep_between(start: [f64; 2], end: [f64; 2], clockwise: bool, full_circle: bool) -> f64 {
+    if full_circle {
+        return if clockwise { -TAU } else { TAU };
+    }
+    let cross = start[0] * end[1] - start[1] * end[0];
+    let dot = start[0] * end[0] + start[1] * end[1];
+    let beside = cross / libm::hypot(start[0], start[1]);
+    // On the ray itself rounding must not choose between a full turn and none: it is a turn.
+    let turn = if dot > 0.0 && beside.abs() < ON_THE_RAY { 0.0 } else { libm::atan2(cross, dot) };
+    match clockwise {
+        true if turn >= 0.0 => turn - TAU,
+        false if turn <= 0.0 => turn + TAU,
+        _ => turn,
+    }
+}
+
 impl Arc {
     /// The arc from `from` as the block gives it.
     pub fn new(from: &Point, arc: &ArcMove) -> Arc {
         let [u, v] = arc.axes.map(usize::from);
         let start = [from[u] - arc.center[0], from[v] - arc.center[1]];
         let end = [arc.to[u] - arc.center[0], arc.to[v] - arc.center[1]];
-        let sweep = if arc.full_circle {
-            if arc.clockwise { -TAU } else { TAU }
-        } else {
-            let cross = start[0] * end[1] - start[1] * end[0];
-            let dot = start[0] * end[0] + start[1] * end[1];
-            let beside = cross / libm::hypot(start[0], start[1]);
-            // On the ray itself rounding must not choose between a full turn and none: it is a turn.
-            let turn = if dot > 0.0 && beside.abs() < ON_THE_RAY { 0.0 } else { libm::atan2(cross, dot) };
-            match arc.clockwise {
-                true if turn >= 0.0 => turn - TAU,
-                false if turn <= 0.0 => turn + TAU,
-                _ => turn,
-            }
-        };
+        let sweep = sweep_between(start, end, arc.clockwise, arc.full_circle);
         Arc {
             from: *from,
             to: arc.to,

@@ -1,40 +1,249 @@
-//! Tool radius compensation, as far as it is built: everything passes through, and the first move in the plane of
-//! compensation is refused with `not yet built` rather than run beside its place.
+//! Tool radius compensation: the tool's centre runs beside the programmed path, exact lines and arcs beside exact lines
+//! and arcs.
+//!
+//! Comes in: the element of the block being executed and what the control's buffer holds behind it. Goes out: a
+//! [`Plan`], the places beside the programmed points by way of which the block runs. It keeps the vector by which the
+//! tool stands beside its programmed place, nothing of the path behind it.
+//! Rules: MX1 operator's manual TOE-C843-7.30, 2.9.1 and table 2.19 (the codes); all geometry after the practice of
+//! Fanuc controls of the time, what is open as policies.
 
-use base::{Alarm, AxisSet, Condition, Place};
-use meaning::Side;
+mod corner;
+mod edge;
+mod interference;
+mod intersection;
+mod vector;
 
-/// The state of compensation along the path.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Compensation {
-    refused: bool,
+use dialect::{CompensationRestart, CompensationRules, CompensationStart};
+use meaning::Offset;
+
+pub(crate) use corner::Join;
+pub use corner::{Corner, TANGENT_MM};
+pub(crate) use edge::Edge;
+pub use interference::BACKWARDS_MM;
+pub(crate) use interference::Fault;
+use interference::judge;
+pub(crate) use vector::{NONE, Vector, angle, less};
+
+/// An element with the offset of its block.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Beside {
+    pub edge: Edge,
+    pub offset: Offset,
 }
 
-/// What becomes of a move.
+/// What the buffer shows behind an element.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Verdict {
-    /// It runs as programmed.
-    Pass,
-    /// It runs, but where is not certain: an earlier move was refused.
-    Uncertain,
-    /// It is refused.
-    Refuse(Alarm),
+pub(crate) enum Next {
+    /// Nothing with a way in the plane: it is not read yet, or too many blocks without one stand between.
+    Unseen,
+    /// A block that runs without the offset.
+    Ends,
+    /// The next element.
+    Element(Beside),
+}
+
+/// What a control lays down.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Rules {
+    pub start: CompensationStart,
+    pub restart: CompensationRestart,
+    pub table: CompensationRules,
+}
+
+/// Which element a fault is found in.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Which {
+    This,
+    Next,
+}
+
+/// How an element is run: by way of these places, all as vectors from its programmed start or end.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Plan {
+    /// Round the corner at its start, where the block before stopped short of it: the first place is where it stands.
+    pub before: Option<Join>,
+    /// From its end to the next element's path; its own path ends at the first place.
+    pub after: Join,
+    /// The angle of its own path, radians; 0 for a line.
+    pub sweep: f64,
+    /// The block begins compensation.
+    pub starts: bool,
+}
+
+/// The state of compensation along the path.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Compensation {
+    /// From the programmed place to where the tool stands, along the plane's axes, mm.
+    vector: Vector,
+    /// The plane's axes.
+    axes: [u8; 2],
+    /// Elements are run beside the path; the first one after that is not so leads to it.
+    on: bool,
+    /// The radius beside the element run last.
+    radius: f64,
+    /// The element run last, if the tool stopped square to its end and not where the next one begins.
+    stopped: Option<Edge>,
+    /// Checking on: the element before was refused.
+    doubtful: bool,
 }
 
 impl Compensation {
-    /// Judges a move along `moving` axes, of which `plane` span the plane in force.
-    pub(crate) fn judge(&mut self, side: Side, moving: AxisSet, plane: AxisSet, place: &Place) -> Verdict {
-        if side == Side::Off {
-            self.refused = false;
-            return Verdict::Pass;
-        }
-        if self.refused {
-            return Verdict::Uncertain;
-        }
-        if moving.and(plane).is_empty() {
-            return Verdict::Pass;
-        }
-        self.refused = true;
-        Verdict::Refuse(Alarm::new(Condition::NotYetBuilt, *place, place.block))
+    /// True if the tool may stand beside its programmed place.
+    pub(crate) fn is_on(&self) -> bool {
+        self.on || self.vector != NONE
     }
+
+    /// From the programmed place to where the tool stands.
+    pub(crate) fn vector(&self) -> Vector {
+        self.vector
+    }
+
+    /// The plane's axes.
+    pub(crate) fn axes(&self) -> [u8; 2] {
+        self.axes
+    }
+
+    /// True if where the tool stands is uncertain.
+    pub(crate) fn is_doubtful(&self) -> bool {
+        self.doubtful
+    }
+
+    /// The block goes to places of its own on some axes of the plane: there the tool leaves its offset, and the next
+    /// element takes it up anew.
+    pub(crate) fn drop_on(&mut self, dropped: [bool; 2]) {
+        for (way, dropped) in self.vector.iter_mut().zip(dropped) {
+            if dropped {
+                *way = 0.0;
+            }
+        }
+        self.leave();
+    }
+
+    /// The tool comes back to its programmed path.
+    pub(crate) fn cancel(&mut self) {
+        self.vector = NONE;
+        self.leave();
+    }
+
+    fn leave(&mut self) {
+        self.on = false;
+        self.stopped = None;
+        self.doubtful = false;
+    }
+
+    /// How the element is run, with what follows it and what follows that.
+    ///
+    /// # Errors
+    /// The block is not run: which element is at fault. Checking on, [`Compensation::pass`] goes past it.
+    pub(crate) fn plan(
+        &mut self,
+        now: &Beside,
+        next: &Next,
+        after: &Next,
+        rules: &Rules,
+    ) -> Result<Plan, (Which, Fault)> {
+        let this = |fault| (Which::This, fault);
+        let radius = now.offset.radius;
+        let starts = !self.on;
+        let mut before = None;
+        let (join, sweep) = if starts {
+            if now.edge.is_arc() {
+                return Err(this(Fault::StartsByArc));
+            }
+            (begin(now, next, rules.start).map_err(|fault| (Which::Next, fault))?, 0.0)
+        } else {
+            let join = end(now, next);
+            let join = if self.doubtful { join.or(Ok(Join::at(now.edge.normal(1, radius)))) } else { join };
+            let join = join.map_err(|fault| (Which::Next, fault))?;
+            before = self.way_round(now, rules.restart);
+            let vectors = [before.map_or(self.vector, |before| before.last()), join.first()];
+            if !self.doubtful {
+                judge(&now.edge, vectors, [self.radius, radius], &rules.table).map_err(this)?;
+            }
+            (join, if now.edge.is_arc() { now.edge.sweep_beside(vectors) } else { 0.0 })
+        };
+        if let Next::Element(next) = next {
+            // Where its end cannot be made, that is the next block's own trouble: this one can still be run.
+            if let Ok(end) = end(next, after) {
+                judge(&next.edge, [join.last(), end.first()], [radius, next.offset.radius], &rules.table)
+                    .map_err(|fault| (Which::Next, fault))?;
+            }
+        }
+        *self = Compensation {
+            vector: join.last(),
+            axes: now.offset.axes,
+            on: true,
+            radius,
+            stopped: matches!(next, Next::Unseen).then_some(now.edge),
+            doubtful: false,
+        };
+        Ok(Plan { before, after: join, sweep, starts })
+    }
+
+    /// Checking on past an element that was refused: what follows begins square to its end.
+    pub(crate) fn pass(&mut self, refused: &Beside) {
+        *self = Compensation {
+            vector: refused.edge.normal(1, refused.offset.radius),
+            axes: refused.offset.axes,
+            on: true,
+            radius: refused.offset.radius,
+            stopped: None,
+            doubtful: true,
+        };
+    }
+
+    /// Round the outside corner at which the block before stopped, by the policy that wants it.
+    fn way_round(&self, now: &Beside, restart: CompensationRestart) -> Option<Join> {
+        let stopped = self.stopped.as_ref().filter(|_| restart == CompensationRestart::Corner)?;
+        let same_side = self.radius == now.offset.radius;
+        let join = corner::join(stopped, &now.edge, self.radius, now.offset.round_corners).filter(|_| same_side)?;
+        if join.corner != Corner::Outside {
+            return None;
+        }
+        if join.first() == self.vector {
+            return Some(join);
+        }
+        // Where the tool stands comes first.
+        let mut places = [self.vector; 4];
+        let rest = places.iter_mut().skip(1).zip(join.places());
+        let count = rest.map(|(slot, place)| *slot = *place).count() + 1;
+        Some(Join::through(Corner::Outside, places.get(..count)?))
+    }
+}
+
+/// The end of an element: where the next one begins, or square to its own end.
+fn end(now: &Beside, next: &Next) -> Result<Join, Fault> {
+    let Beside { edge, offset } = now;
+    let foot = edge.normal(1, offset.radius);
+    let Next::Element(next) = next else { return Ok(Join::at(foot)) };
+    if offset.radius * next.offset.radius < 0.0 {
+        // Over to the other side: along the next line, or to the arc's foot at once.
+        let other = next.edge.normal(0, next.offset.radius);
+        let arcs = edge.is_arc() || next.edge.is_arc();
+        return Ok(if arcs { Join::through(Corner::None, &[foot, other]) } else { Join::at(foot) });
+    }
+    corner::join(edge, &next.edge, offset.radius, offset.round_corners).ok_or(Fault::Apart)
+}
+
+/// The end of the block that begins compensation.
+fn begin(now: &Beside, next: &Next, start: CompensationStart) -> Result<Join, Fault> {
+    let Beside { edge, offset } = now;
+    let Next::Element(next) = next else { return Ok(Join::at(edge.normal(1, offset.radius))) };
+    let square = Join::at(next.edge.normal(0, offset.radius));
+    if start == CompensationStart::Square {
+        return Ok(square);
+    }
+    let bend = corner::bend(edge, &next.edge);
+    if corner::side_of(&bend, offset.radius) != Corner::Outside {
+        return Ok(square);
+    }
+    // Up to a right angle the intersection, whatever the corners are; beyond it as a corner, from its own foot on.
+    let join = corner::outside(edge, &next.edge, &bend, offset.radius, offset.round_corners && bend.cos < 0.0);
+    if join.round || bend.cos >= 0.0 {
+        return Ok(join);
+    }
+    let mut places = [edge.normal(1, offset.radius); 4];
+    let rest = places.iter_mut().skip(1).zip(join.places());
+    let count = rest.map(|(slot, place)| *slot = *place).count() + 1;
+    Ok(Join::through(Corner::Outside, places.get(..count).unwrap_or_default()))
 }

@@ -5,8 +5,12 @@
 
 mod arc;
 mod compensation;
+mod offsetting;
+mod pieces;
+mod shape;
 mod stage;
 
 pub use arc::Arc;
-pub use compensation::Compensation;
-pub use stage::{Path, Shape, Shaped};
+pub use compensation::{BACKWARDS_MM, Corner, TANGENT_MM};
+pub use shape::{Part, Programmed, RunBeside, Shape, Shaped};
+pub use stage::Path;

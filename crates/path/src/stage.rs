@@ -1,100 +1,20 @@
-//! The stage: one operation in, one shape out, moves of no length left out.
+//! The stage: one operation in, its shapes out, moves of no length left out.
 
-use base::{AXES, Alarm, AxisSet, Place, Point};
-use meaning::{
-    Act, Answer, Close, CodeOut, Dwell, Feed, Interpreter, Operation, Pull, RapidKind, SetValue, StaleBarrier, StopKind,
-};
+use base::Point;
+use meaning::{Act, Answer, Interpreter, Operation, Pull, StaleBarrier};
 
 use crate::arc::Arc;
-use crate::compensation::{Compensation, Verdict};
-
-/// What happens, with its geometry.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Shape {
-    /// The program begins.
-    Start(dialect::GroupCodes),
-    /// A code goes out.
-    Code(CodeOut),
-    /// Positioning.
-    Rapid {
-        /// From here.
-        from: Point,
-        /// To there.
-        to: Point,
-        /// How it ends.
-        kind: RapidKind,
-    },
-    /// A straight cut.
-    Line {
-        /// From here.
-        from: Point,
-        /// To there.
-        to: Point,
-        /// The feed along it.
-        feed: Feed,
-    },
-    /// An arc.
-    Arc {
-        /// Its geometry.
-        arc: Arc,
-        /// The feed along the arc in its plane.
-        feed: Feed,
-    },
-    /// Time passes.
-    Dwell(Dwell),
-    /// A value was written.
-    Set(SetValue),
-    /// The machine answers every code that is out; then a stop, if there is one.
-    Await(Option<StopKind>),
-    /// The block is done.
-    Close(Close),
-    /// The block is refused.
-    Alarm(Alarm),
-}
-
-/// A shape with where it comes from.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Shaped {
-    /// Which block it belongs to.
-    pub block: u64,
-    /// Where that block stands.
-    pub place: Place,
-    /// What happens.
-    pub shape: Shape,
-    /// A stop point of the single-block switch inside the block.
-    pub stop_point: bool,
-    /// The move ends where the skip signal comes.
-    pub until_signal: bool,
-    /// The second stored stroke area is checked.
-    pub stroke_check: bool,
-    /// False if an earlier refusal makes its place doubtful (only while checking on).
-    pub certain: bool,
-}
-
-impl Default for Shaped {
-    /// The end of no block.
-    fn default() -> Self {
-        let shape = Shape::Close(Close::Next);
-        Shaped {
-            block: 0,
-            place: Place::default(),
-            shape,
-            stop_point: false,
-            until_signal: false,
-            stroke_check: false,
-            certain: true,
-        }
-    }
-}
+use crate::offsetting::Offsetting;
+use crate::shape::{Shape, Shaped};
 
 /// The stage that makes paths of operations.
 pub struct Path {
     /// The stage before.
     pub upstream: Interpreter,
     position: Point,
-    compensation: Compensation,
-    /// Where the axes are is doubtful: a move was refused, and checking goes on.
-    doubtful: bool,
+    offsetting: Offsetting,
+    /// The operation pulled last is not worked off: a question had to be answered first.
+    held: bool,
     /// The shape handed out last.
     shaped: Shaped,
 }
@@ -102,14 +22,14 @@ pub struct Path {
 impl Path {
     /// The stage behind an interpreter, its axes standing at `position` (mm, degrees).
     pub fn new(upstream: Interpreter, position: Point) -> Path {
-        Path { upstream, position, compensation: Compensation::default(), doubtful: false, shaped: Shaped::default() }
+        Path { upstream, position, offsetting: Offsetting::default(), held: false, shaped: Shaped::default() }
     }
 
     /// The axes stand here, whatever was under way (mm, degrees).
     pub fn stand_at(&mut self, position: &Point) {
         self.position = *position;
-        self.compensation = Compensation::default();
-        self.doubtful = false;
+        self.offsetting = Offsetting::default();
+        self.held = false;
     }
 
     /// Answers the interpreter's open barrier.
@@ -127,15 +47,37 @@ impl Path {
     /// The next shape. It stays as it is until the next call.
     #[expect(clippy::should_implement_trait, reason = "a pull has barriers, which an iterator does not")]
     pub fn next(&mut self) -> Pull<&Shaped> {
-        let Path { upstream, position, compensation, doubtful, shaped } = self;
+        let Path { upstream, position, offsetting, held, shaped } = self;
         loop {
-            let operation = match upstream.next() {
-                Pull::Item(operation) => operation,
-                Pull::Barrier(barrier) => return Pull::Barrier(barrier),
-                Pull::End => return Pull::End,
-            };
-            if shape(operation, position, compensation, doubtful, shaped) {
+            if offsetting.next_piece(position, shaped) {
                 return Pull::Item(shaped);
+            }
+            if !std::mem::take(held) {
+                match upstream.next() {
+                    Pull::Item(_) => {}
+                    Pull::Barrier(barrier) => return Pull::Barrier(barrier),
+                    Pull::End => return Pull::End,
+                }
+            }
+            if !upstream.current().compensated && !offsetting.is_on() {
+                if shape(upstream.current(), position, shaped) {
+                    return Pull::Item(shaped);
+                }
+                continue;
+            }
+            match offsetting.take(upstream, position) {
+                Ok(None) => {}
+                Ok(Some(operation)) => {
+                    let is_move = shape(&operation, position, shaped);
+                    if is_move {
+                        offsetting.note(shaped);
+                        return Pull::Item(shaped);
+                    }
+                }
+                Err(barrier) => {
+                    *held = true;
+                    return Pull::Barrier(barrier);
+                }
             }
         }
     }
@@ -147,13 +89,7 @@ impl Path {
 }
 
 /// Writes the operation's shape; false for a move of no length.
-fn shape(
-    operation: &Operation,
-    position: &mut Point,
-    compensation: &mut Compensation,
-    doubtful: &mut bool,
-    shaped: &mut Shaped,
-) -> bool {
+fn shape(operation: &Operation, position: &mut Point, shaped: &mut Shaped) -> bool {
     let from = *position;
     let to = match operation.act {
         Act::Rapid { to, kind } => {
@@ -203,39 +139,12 @@ fn shape(
     shaped.until_signal = operation.until_signal;
     shaped.stroke_check = operation.stroke_check;
     shaped.certain = true;
-    let moving = match &shaped.shape {
-        Shape::Arc { arc, .. } => AxisSet::only(usize::from(arc.axes[0])).or(AxisSet::only(usize::from(arc.axes[1]))),
-        Shape::Rapid { .. } | Shape::Line { .. } => differing(&from, &to),
+    shaped.beside = None;
+    let moves = match &shaped.shape {
+        Shape::Arc { .. } => true,
+        Shape::Rapid { .. } | Shape::Line { .. } => from != to,
         _ => return true,
     };
-    if moving.is_empty() && !operation.from_unknown && !*doubtful {
-        return false;
-    }
-    match compensation.judge(operation.side, moving, operation.plane, &operation.place) {
-        Verdict::Pass => *doubtful = false,
-        Verdict::Uncertain => {
-            shaped.certain = false;
-            *doubtful = true;
-        }
-        Verdict::Refuse(alarm) => {
-            *doubtful = true;
-            // Checking on, later moves begin where the program believes to be.
-            *position = to;
-            shaped.shape = Shape::Alarm(alarm);
-            return true;
-        }
-    }
     *position = to;
-    true
-}
-
-/// The axes on which two points differ.
-fn differing(a: &Point, b: &Point) -> AxisSet {
-    let mut axes = AxisSet::NONE;
-    for axis in 0..AXES {
-        if a[axis] != b[axis] {
-            axes.add(axis);
-        }
-    }
-    axes
+    moves || operation.from_unknown
 }

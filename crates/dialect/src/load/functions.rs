@@ -2,7 +2,9 @@
 
 use data::Table;
 
-use crate::function::{CycleStep, CycleSteps, CycleTable, DataKinds, Functions, MOST_STEPS, ReferenceRules, WorkRules};
+use crate::function::{
+    CompensationRules, CycleStep, CycleSteps, CycleTable, DataKinds, Functions, MOST_STEPS, ReferenceRules, WorkRules,
+};
 use crate::meaning::Meaning;
 use crate::row::{Division, GCode};
 
@@ -28,8 +30,9 @@ pub(super) fn functions(root: &mut Table) -> FunctionsDraft {
     });
     let (stroke_outside, any_corners) = stroke.unwrap_or_default();
     let data = root.table("data_setting", data_kinds).unwrap_or_default();
+    let compensation = root.table("compensation", compensation).unwrap_or_default();
     FunctionsDraft {
-        functions: Functions { cycle, work, reference, data, any_corners },
+        functions: Functions { cycle, work, reference, data, compensation, any_corners },
         cycle_codes,
         base_code,
         before_start,
@@ -105,6 +108,14 @@ fn reference(table: &mut Table) -> (ReferenceRules, Option<String>) {
         before_start: None,
     };
     (rules, table.string("before_start"))
+}
+
+fn compensation(table: &mut Table) -> CompensationRules {
+    CompensationRules {
+        refuses_machine_places: table.choice("machine_places", &[("drop", false), ("refuse", true)]).unwrap_or(false),
+        refuses_equal_arc: table.choice("inner_arc", &[("smaller", false), ("not-larger", true)]).unwrap_or(false),
+        circles_close: table.choice("full_circle", &[("any", false), ("closes", true)]).unwrap_or(false),
+    }
 }
 
 fn data_kinds(table: &mut Table) -> DataKinds {

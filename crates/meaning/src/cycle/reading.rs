@@ -155,7 +155,7 @@ impl Reading<'_> {
                     None => self.motion_alarm(Condition::CycleInCompensation),
                 });
             }
-            self.command.side = Side::Off;
+            self.command.drops = self.setting.facts.all();
         }
         let drilling = self.drilling_axis()?;
         let mut end_point = places.at(places.count().saturating_sub(1));

@@ -4,7 +4,7 @@ use base::Place;
 use dialect::M01OffOutput;
 
 use super::Interpreter;
-use crate::command::{Body, Finish};
+use crate::command::{Body, Command, Finish};
 use crate::expand::{Expansion, Surroundings};
 use crate::operation::{Act, Close, EndKind, Operation};
 use crate::pull::{Barrier, BarrierKind, Pull};
@@ -118,29 +118,64 @@ impl Interpreter {
         let [blocks, _, buffering] = self.reader.setting.control.read_ahead;
         let depth = |state: &State| if state.buffering { buffering } else { blocks } + 1;
         let goes_on = self.reader.goes_on;
-        while self.queue.len() < (if goes_on { 1 } else { depth(&self.reader.state) })
-            && !self.queue.back().is_some_and(|command| command.stops_reading)
-        {
-            match self.reader.read(self.queue.slot()) {
-                Read::Command => {
-                    if !self.started {
-                        self.start();
-                    }
-                    self.queue.take_in();
-                }
-                Read::NeedBytes { source, offset } => {
-                    return Some(self.ask(BarrierKind::NeedBytes { source, offset, len: WINDOW }));
-                }
-                Read::NeedProgram { program } => return Some(self.ask(BarrierKind::NeedProgram { program })),
-                // Motion must have ended: the blocks in the queue come first.
-                Read::NeedValue(quantity) if quantity.waits_for_motion() && self.queue.len() > 0 => break,
-                Read::NeedValue(quantity) => return Some(self.ask(BarrierKind::NeedValue(quantity))),
-                Read::Pause if self.queue.len() > 0 => break,
-                Read::Pause => self.reader.ahead = 0,
-                Read::Ended => break,
+        while self.queue.len() < (if goes_on { 1 } else { depth(&self.reader.state) }) {
+            match self.read_one() {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(barrier) => return Some(barrier),
             }
         }
         None
+    }
+
+    /// The block so many behind the one being executed, as far as the control reads ahead in compensation; `None` if it
+    /// cannot be seen from here.
+    ///
+    /// # Errors
+    /// A barrier must be answered first.
+    pub fn look_ahead(&mut self, index: usize) -> Result<Option<&Command>, Barrier> {
+        if let Some(barrier) = self.barrier {
+            return Err(barrier);
+        }
+        let [_, compensation, _] = self.reader.setting.control.read_ahead;
+        while self.queue.len() <= index {
+            if index > compensation || !self.read_one()? {
+                return Ok(None);
+            }
+        }
+        Ok(self.queue.behind(index))
+    }
+
+    /// The operation handed out last.
+    pub fn current(&self) -> &Operation {
+        &self.operation
+    }
+
+    /// Reads one block into the queue; false if none can be read before those in it are done.
+    fn read_one(&mut self) -> Result<bool, Barrier> {
+        if self.queue.back().is_some_and(|command| command.stops_reading) {
+            return Ok(false);
+        }
+        match self.reader.read(self.queue.slot()) {
+            Read::Command => {
+                if !self.started {
+                    self.start();
+                }
+                self.queue.take_in();
+                Ok(true)
+            }
+            Read::NeedBytes { source, offset } => Err(self.ask(BarrierKind::NeedBytes { source, offset, len: WINDOW })),
+            Read::NeedProgram { program } => Err(self.ask(BarrierKind::NeedProgram { program })),
+            // Motion must have ended: the blocks in the queue come first.
+            Read::NeedValue(quantity) if quantity.waits_for_motion() && self.queue.len() > 0 => Ok(false),
+            Read::NeedValue(quantity) => Err(self.ask(BarrierKind::NeedValue(quantity))),
+            Read::Pause if self.queue.len() > 0 => Ok(false),
+            Read::Pause => {
+                self.reader.ahead = 0;
+                Ok(true)
+            }
+            Read::Ended => Ok(false),
+        }
     }
 
     /// The first block has been read, so the program's name is known: the program begins before it.

@@ -124,6 +124,7 @@ impl Reader {
         command.stops_reading = true;
         command.after = *self.state;
         command.side = Side::Off;
+        command.offset = None;
         self.blocks += 1;
         Read::Command
     }

@@ -108,7 +108,7 @@ impl List<'_> {
         #[rustfmt::skip]
         let State {
             // Shown already, or nothing that a block says of itself.
-            groups: _, feed: _, spindle: _, tool: _, index: _, h: _, d: _, machine: _, length: _, length_due: _,
+            groups: _, feed: _, radius: _, spindle: _, tool: _, index: _, h: _, d: _, machine: _, length: _, length_due: _,
             sequence: _, memory_mark: _, spindle_stopped: _,
             base_origin, common_shift, universal_zero, displacement, cycle, miscellaneous, skip, block_control,
             feed_control, reference, interrupt, buffering, corner, stroke, transform, polar,

@@ -1,0 +1,77 @@
+//! An element as compensation looks at it: its directions, how it bends, how long it is.
+
+use meaning::Element;
+
+use super::vector::{NONE, Vector, angle, cross, dot, left, length, less, times};
+use crate::arc::sweep_between;
+
+/// Counts a mm.
+const COUNTS: f64 = 1e6;
+
+/// An element's shape, free of where it lies; mm.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Edge {
+    /// Unit tangents at its start and end.
+    pub tangent: [Vector; 2],
+    /// Curvature at its start and end, 1/mm: positive if it turns left.
+    pub curvature: [f64; 2],
+    /// Length of a line.
+    pub length: f64,
+    /// From the centre of an arc to its start and end.
+    pub spoke: [Vector; 2],
+    /// Angle of an arc, radians, + counter-clockwise; 0 for a line.
+    pub sweep: f64,
+    /// An arc all the way round.
+    pub full_circle: bool,
+}
+
+impl Edge {
+    /// The shape of an element; `None` for one without length.
+    pub fn new(element: &Element) -> Option<Edge> {
+        let Some(turn) = element.turn else {
+            let way = times(less(element.to, element.from), 1.0 / COUNTS);
+            let length = length(way);
+            let tangent = times(way, 1.0 / length);
+            return (length > 0.0).then_some(Edge {
+                tangent: [tangent; 2],
+                curvature: [0.0; 2],
+                length,
+                spoke: [NONE; 2],
+                sweep: 0.0,
+                full_circle: false,
+            });
+        };
+        let spoke = [element.from, element.to].map(|end| times(less(end, turn.center), 1.0 / COUNTS));
+        let radius = spoke.map(length);
+        let sense = if turn.clockwise { -1.0 } else { 1.0 };
+        (radius[0] > 0.0 && radius[1] > 0.0).then(|| Edge {
+            tangent: [0, 1].map(|end| times(left(spoke[end]), sense / radius[end])),
+            curvature: radius.map(|radius| sense / radius),
+            length: 0.0,
+            spoke,
+            sweep: sweep_between(spoke[0], spoke[1], turn.clockwise, turn.full_circle),
+            full_circle: turn.full_circle,
+        })
+    }
+
+    /// True for an arc.
+    pub fn is_arc(&self) -> bool {
+        self.sweep != 0.0
+    }
+
+    /// Its left normals at start and end, so long.
+    pub fn normal(&self, end: usize, long: f64) -> Vector {
+        times(left(self.tangent[end]), long)
+    }
+
+    /// The angle of an arc's path that begins and ends beside it by these vectors, radians.
+    pub fn sweep_beside(&self, vectors: [Vector; 2]) -> f64 {
+        let shift = |end: usize| {
+            let spoke = self.spoke[end];
+            let moved = [spoke[0] + vectors[end][0], spoke[1] + vectors[end][1]];
+            // On its own ray nothing is to be turned; the centre itself has no direction.
+            if cross(spoke, moved) == 0.0 || dot(moved, moved) == 0.0 { 0.0 } else { angle(spoke, moved) }
+        };
+        self.sweep + shift(1) - shift(0)
+    }
+}

@@ -1,0 +1,230 @@
+//! A plan of compensation as moves, one at a time: round the corner at the start, beside the element, round the corner
+//! at its end.
+
+use base::Point;
+use meaning::{Act, ArcMove, Element, Feed, Operation, RapidKind};
+
+use crate::arc::Arc;
+use crate::compensation::{Beside, Corner, Join, Plan, Vector, angle, less};
+use crate::shape::{Part, Programmed, RunBeside, Shape, Shaped};
+
+/// A piece shorter than this, mm, has no length: rounding made it.
+const NO_LENGTH: f64 = 1e-9;
+/// Counts a mm.
+const COUNTS: f64 = 1e6;
+
+/// A plan being carried out.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Pieces {
+    work: Option<Work>,
+    /// The piece that comes next.
+    next: u8,
+}
+
+#[derive(Clone, Copy)]
+struct Work {
+    operation: Operation,
+    element: Element,
+    beside: Beside,
+    plan: Plan,
+    certain: bool,
+    /// Where the axes stood before it.
+    from: Point,
+}
+
+impl Pieces {
+    /// The pieces of an operation, whose block stands in the plane as `element`; the axes stand at `from`.
+    pub fn new(
+        operation: Operation,
+        element: Element,
+        beside: Beside,
+        plan: Plan,
+        certain: bool,
+        from: &Point,
+    ) -> Pieces {
+        Pieces { work: Some(Work { operation, element, beside, plan, certain, from: *from }), next: 0 }
+    }
+
+    /// True until the last piece is out.
+    #[inline]
+    pub fn is_open(&self) -> bool {
+        self.work.is_some()
+    }
+
+    /// Writes the next piece that has a length; false if there is none.
+    pub fn next(&mut self, position: &mut Point, shaped: &mut Shaped) -> bool {
+        while let Some(work) = &self.work {
+            let index = usize::from(self.next);
+            let last = index + 1 == work.count();
+            let made = work.piece(index, last, position, shaped);
+            self.next += 1;
+            if last {
+                self.work = None;
+            }
+            if made {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+impl Work {
+    /// Pieces before the one that runs beside the element: the first place of that way is where the tool stands.
+    fn ahead(&self) -> usize {
+        self.plan.before.as_ref().map_or(0, |join| join.places().len().saturating_sub(1))
+    }
+
+    fn count(&self) -> usize {
+        self.ahead() + self.plan.after.places().len()
+    }
+
+    /// Writes a piece; false if it has no length.
+    fn piece(&self, index: usize, last: bool, position: &mut Point, shaped: &mut Shaped) -> bool {
+        let ahead = self.ahead();
+        let (join, step, programmed) = match (index.checked_sub(ahead), &self.plan.before) {
+            (None, Some(before)) => (before, index + 1, self.element.from),
+            (behind, _) => (&self.plan.after, behind.unwrap_or(0), self.element.to),
+        };
+        let (Some(&vector), Some(end)) = (join.places().get(step), self.end()) else { return false };
+        let axes = self.beside.offset.axes;
+        let from = *position;
+        let to = placed(if index < ahead { &self.from } else { &end }, axes, programmed, vector);
+        let along = index == ahead;
+        let arc = match along {
+            true if self.beside.edge.is_arc() => Some(self.arc_beside(&from, &to)),
+            false if join.round && step == 1 => Some(self.arc_round(&from, &to, join, programmed)),
+            _ => None,
+        };
+        let length = arc.map_or_else(|| distance(&from, &to), |arc| arc.plane_length());
+        if length < NO_LENGTH && beside_plane(&from, axes) == beside_plane(&to, axes) {
+            return false;
+        }
+        // An arc shrunk to its centre is a turn on the spot.
+        let arc = arc.filter(|_| length >= NO_LENGTH);
+        *position = to;
+        shaped.shape = self.shape(arc, from, to, last);
+        shaped.block = self.operation.block;
+        shaped.place = self.operation.place;
+        shaped.stop_point = self.operation.stop_point && last;
+        shaped.until_signal = false;
+        shaped.stroke_check = self.operation.stroke_check;
+        shaped.certain = self.certain;
+        shaped.beside = Some(RunBeside {
+            part: match (along, self.plan.starts) {
+                (true, true) => Part::Start,
+                (true, false) => Part::Along,
+                (false, _) => Part::Round,
+            },
+            radius: self.beside.offset.radius,
+            corner: if along { self.plan.after.corner } else { Corner::None },
+            programmed: along.then(|| self.programmed(&from, &end)),
+        });
+        true
+    }
+
+    /// Where the operation ends as programmed.
+    fn end(&self) -> Option<Point> {
+        match &self.operation.act {
+            Act::Rapid { to, .. } | Act::Line { to, .. } => Some(*to),
+            Act::Arc { arc, .. } => Some(arc.to),
+            _ => None,
+        }
+    }
+
+    /// The shape from here to there; of a block in pieces only the last one ends exactly.
+    fn shape(&self, arc: Option<Arc>, from: Point, to: Point, last: bool) -> Shape {
+        let feed = match self.operation.act {
+            Act::Line { feed, .. } | Act::Arc { feed, .. } => feed,
+            // A corner in a positioning block is rounded at the rapid rate.
+            _ => {
+                Feed { mm_per_min: f64::INFINITY, exact_stop: true, tapping: false, per_revolution: false, way_mm: 0.0 }
+            }
+        };
+        let feed = Feed { exact_stop: feed.exact_stop && last, ..feed };
+        match (arc, self.operation.act) {
+            (Some(arc), _) => Shape::Arc { arc, feed },
+            (None, Act::Rapid { kind, .. }) => {
+                Shape::Rapid { from, to, kind: if last { kind } else { RapidKind::Unchecked } }
+            }
+            (None, _) => Shape::Line { from, to, feed },
+        }
+    }
+
+    /// The arc beside the programmed one: about the same centre.
+    fn arc_beside(&self, from: &Point, to: &Point) -> Arc {
+        let center = self.element.turn.map_or([0.0; 2], |turn| turn.center.map(|counts| counts / COUNTS));
+        self.arc_about(center, from, to, self.plan.sweep)
+    }
+
+    /// The arc about a corner, from one foot to the other, away from the tool's side.
+    fn arc_round(&self, from: &Point, to: &Point, join: &Join, corner: Vector) -> Arc {
+        let [first, second] = [0, 1].map(|place| join.places().get(place).copied().unwrap_or_default());
+        let sweep = angle(first, second).abs().copysign(-self.beside.offset.radius);
+        self.arc_about(corner.map(|counts| counts / COUNTS), from, to, sweep)
+    }
+
+    fn arc_about(&self, center: Vector, from: &Point, to: &Point, sweep: f64) -> Arc {
+        let offset = &self.beside.offset;
+        let spokes = [from, to].map(|end| less(in_plane(end, offset.axes), center));
+        let radius = spokes.map(|spoke| libm::hypot(spoke[0], spoke[1]));
+        // What differs by rounding alone is a circle, not a spiral.
+        let is_circle = (radius[0] - radius[1]).abs() < NO_LENGTH;
+        Arc {
+            from: *from,
+            to: *to,
+            plane: offset.plane,
+            axes: offset.axes,
+            center,
+            radius: if is_circle { [radius[0]; 2] } else { radius },
+            start_angle: libm::atan2(spokes[0][1], spokes[0][0]),
+            sweep,
+        }
+    }
+
+    /// The programmed way that a piece runs beside.
+    fn programmed(&self, from: &Point, end: &Point) -> Programmed {
+        let axes = self.beside.offset.axes;
+        let start = placed(from, axes, self.element.from, [0.0; 2]);
+        let end = placed(end, axes, self.element.to, [0.0; 2]);
+        match self.element.turn {
+            None => Programmed::Line(start, end),
+            Some(turn) => Programmed::Arc(Arc::new(
+                &start,
+                &ArcMove {
+                    to: end,
+                    plane: self.beside.offset.plane,
+                    axes,
+                    center: turn.center.map(|counts| counts / COUNTS),
+                    clockwise: turn.clockwise,
+                    full_circle: turn.full_circle,
+                },
+            )),
+        }
+    }
+}
+
+/// A point with its axes of the plane at a programmed place (counts) and a vector beside it (mm).
+fn placed(point: &Point, axes: [u8; 2], programmed: Vector, vector: Vector) -> Point {
+    let mut placed = *point;
+    for (index, axis) in axes.iter().enumerate() {
+        if let Some(place) = placed.get_mut(usize::from(*axis)) {
+            *place = programmed[index] / COUNTS + vector[index];
+        }
+    }
+    placed
+}
+
+/// A point's axes of the plane.
+fn in_plane(point: &Point, axes: [u8; 2]) -> Vector {
+    axes.map(|axis| point.get(usize::from(axis)).copied().unwrap_or(0.0))
+}
+
+/// A point with its axes of the plane left out.
+fn beside_plane(point: &Point, axes: [u8; 2]) -> Point {
+    placed(point, axes, [0.0; 2], [0.0; 2])
+}
+
+fn distance(from: &Point, to: &Point) -> f64 {
+    from.iter().zip(to).map(|(from, to)| (to - from) * (to - from)).sum::<f64>().sqrt()
+}

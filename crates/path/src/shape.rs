@@ -1,0 +1,124 @@
+//! What the stage hands on: shapes, each with where it comes from.
+
+use base::{Alarm, Place, Point};
+use meaning::{Close, CodeOut, Dwell, Feed, RapidKind, SetValue, StopKind};
+
+use crate::arc::Arc;
+use crate::compensation::Corner;
+
+/// What happens, with its geometry.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Shape {
+    /// The program begins.
+    Start(dialect::GroupCodes),
+    /// A code goes out.
+    Code(CodeOut),
+    /// Positioning.
+    Rapid {
+        /// From here.
+        from: Point,
+        /// To there.
+        to: Point,
+        /// How it ends.
+        kind: RapidKind,
+    },
+    /// A straight cut.
+    Line {
+        /// From here.
+        from: Point,
+        /// To there.
+        to: Point,
+        /// The feed along it.
+        feed: Feed,
+    },
+    /// An arc.
+    Arc {
+        /// Its geometry.
+        arc: Arc,
+        /// The feed along the arc in its plane.
+        feed: Feed,
+    },
+    /// Time passes.
+    Dwell(Dwell),
+    /// A value was written.
+    Set(SetValue),
+    /// The machine answers every code that is out; then a stop, if there is one.
+    Await(Option<StopKind>),
+    /// The block is done.
+    Close(Close),
+    /// The block is refused.
+    Alarm(Alarm),
+}
+
+/// A shape with where it comes from.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Shaped {
+    /// Which block it belongs to.
+    pub block: u64,
+    /// Where that block stands.
+    pub place: Place,
+    /// What happens.
+    pub shape: Shape,
+    /// A stop point of the single-block switch inside the block.
+    pub stop_point: bool,
+    /// The move ends where the skip signal comes.
+    pub until_signal: bool,
+    /// The second stored stroke area is checked.
+    pub stroke_check: bool,
+    /// False if an earlier refusal makes its place doubtful (only while checking on).
+    pub certain: bool,
+    /// How it follows from the programmed path, if it runs beside that.
+    pub beside: Option<RunBeside>,
+}
+
+/// How a move beside the programmed path follows from it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct RunBeside {
+    /// Which part of the block it is.
+    pub part: Part,
+    /// The tool's radius, mm: positive left of the path, negative right of it.
+    pub radius: f64,
+    /// The corner at the block's end, with the move that leads to it; `None` with every other.
+    pub corner: Corner,
+    /// The programmed way of the block, with the move that runs beside it.
+    pub programmed: Option<Programmed>,
+}
+
+/// Which part of a compensated block a move is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Part {
+    /// It leads from the programmed path to the one beside it.
+    Start,
+    /// It runs beside the programmed element.
+    Along,
+    /// It goes round a corner.
+    Round,
+    /// It leads back to the programmed path.
+    Cancel,
+}
+
+/// A programmed way.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Programmed {
+    /// Straight, from here to there.
+    Line(Point, Point),
+    /// An arc.
+    Arc(Arc),
+}
+
+impl Default for Shaped {
+    /// The end of no block.
+    fn default() -> Self {
+        let shape = Shape::Close(Close::Next);
+        Shaped {
+            block: 0,
+            place: Place::default(),
+            shape,
+            stop_point: false,
+            until_signal: false,
+            stroke_check: false,
+            certain: true,
+            beside: None,
+        }
+    }
+}
