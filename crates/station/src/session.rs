@@ -12,7 +12,7 @@ use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
 use machine::{Event, EventKind, Machine, VirtualMachine};
 use meaning::Interpreter;
 use motion::Motion;
-use path::{Path, Shaped};
+use path::{Path, RunBeside, Shaped};
 
 use crate::configuration::{Configuration, Inputs};
 use crate::library::{Library, LibraryError};
@@ -228,6 +228,11 @@ impl<L: Library> Session<L> {
     /// True if it waits for CYCLE START.
     pub fn is_stopped(&self) -> bool {
         self.stopped
+    }
+
+    /// How the move handed out last follows from the programmed path, if it runs beside that.
+    pub fn beside(&self) -> Option<&RunBeside> {
+        self.motion.upstream.current().beside.as_ref()
     }
 
     /// Chooses the program to run, which begins at `head` in its text.
