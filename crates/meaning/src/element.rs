@@ -10,7 +10,7 @@ use crate::operation::{Plane, Side};
 use crate::state::Corner;
 
 /// How the tool runs beside the path.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Offset {
     /// The tool's radius, mm: positive left of the path, negative right of it.
     pub radius: f64,
@@ -23,7 +23,7 @@ pub struct Offset {
 }
 
 /// A way in the plane, counts of machine coordinates.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Element {
     /// From here.
     pub from: [f64; 2],

@@ -58,7 +58,7 @@ pub(crate) enum Which {
 }
 
 /// How an element is run: by way of these places, all as vectors from its programmed start or end.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Plan {
     /// Round the corner at its start, where the block before stopped short of it: the first place is where it stands.
     pub before: Option<Join>,
@@ -131,7 +131,7 @@ impl Compensation {
         self.doubtful = false;
     }
 
-    /// How the element is run, with what follows it and what follows that.
+    /// How the element is run, with what follows it; `known` is its end as [`Compensation::look_past`] has made it.
     ///
     /// # Errors
     /// The block is not run: which element is at fault. Checking on, [`Compensation::pass`] goes past it.
@@ -139,45 +139,62 @@ impl Compensation {
         &mut self,
         now: &Beside,
         next: &Next,
-        after: &Next,
+        known: Option<&Join>,
         rules: &Rules,
     ) -> Result<Plan, (Which, Fault)> {
-        let this = |fault| (Which::This, fault);
         let radius = now.offset.radius;
-        let starts = !self.on;
-        let mut before = None;
-        let (join, sweep) = if starts {
+        let mut plan = Plan { starts: !self.on, ..Plan::default() };
+        if plan.starts {
             if now.edge.is_arc() {
-                return Err(this(Fault::StartsByArc));
+                return Err((Which::This, Fault::StartsByArc));
             }
-            (begin(now, next, rules.start).map_err(|fault| (Which::Next, fault))?, 0.0)
+            plan.after = begin(now, next, rules.start);
         } else {
-            let join = end(now, next);
-            let join = if self.doubtful { join.or(Ok(Join::at(now.edge.normal(1, radius)))) } else { join };
-            let join = join.map_err(|fault| (Which::Next, fault))?;
-            before = self.way_round(now, rules.restart);
-            let vectors = [before.map_or(self.vector, |before| before.last()), join.first()];
-            if !self.doubtful {
-                judge(&now.edge, vectors, [self.radius, radius], &rules.table).map_err(this)?;
+            plan.after = match (known, end(now, next)) {
+                (Some(known), _) => *known,
+                (None, Ok(join)) => join,
+                (None, Err(_)) if self.doubtful => Join::at(now.edge.normal(1, radius)),
+                (None, Err(fault)) => return Err((Which::Next, fault)),
+            };
+            plan.before = self.way_round(now, rules.restart);
+            let vectors = [plan.before.map_or(self.vector, |before| before.last()), plan.after.first()];
+            // A known end has been judged when it was made.
+            if !self.doubtful && known.is_none() {
+                judge(&now.edge, vectors, [self.radius, radius], &rules.table).map_err(|fault| (Which::This, fault))?;
             }
-            (join, if now.edge.is_arc() { now.edge.sweep_beside(vectors) } else { 0.0 })
-        };
-        if let Next::Element(next) = next {
-            // Where its end cannot be made, that is the next block's own trouble: this one can still be run.
-            if let Ok(end) = end(next, after) {
-                judge(&next.edge, [join.last(), end.first()], [radius, next.offset.radius], &rules.table)
-                    .map_err(|fault| (Which::Next, fault))?;
+            if now.edge.is_arc() {
+                plan.sweep = now.edge.sweep_beside(vectors);
             }
         }
-        *self = Compensation {
-            vector: join.last(),
-            axes: now.offset.axes,
-            on: true,
-            radius,
-            stopped: matches!(next, Next::Unseen).then_some(now.edge),
-            doubtful: false,
-        };
-        Ok(Plan { before, after: join, sweep, starts })
+        Ok(plan)
+    }
+
+    /// The end of the element behind a planned one, which must be fit to run before the planned one moves. `None` if its
+    /// end cannot be made: that is its own trouble, the planned one can still be run.
+    ///
+    /// # Errors
+    /// The tool does not fit beside it.
+    pub(crate) fn look_past(
+        now: &Beside,
+        plan: &Plan,
+        next: &Beside,
+        after: &Next,
+        rules: &Rules,
+    ) -> Result<Option<Join>, Fault> {
+        let Ok(end) = end(next, after) else { return Ok(None) };
+        let radii = [now.offset.radius, next.offset.radius];
+        judge(&next.edge, [plan.after.last(), end.first()], radii, &rules.table)?;
+        Ok(Some(end))
+    }
+
+    /// The planned element is run.
+    pub(crate) fn take(&mut self, now: &Beside, plan: &Plan, next: &Next) {
+        self.vector = plan.after.last();
+        self.axes = now.offset.axes;
+        self.on = true;
+        self.radius = now.offset.radius;
+        self.doubtful = false;
+        self.stopped = if matches!(next, Next::Unseen) { Some(now.edge) } else { None };
     }
 
     /// Checking on past an element that was refused: what follows begins square to its end.
@@ -226,24 +243,24 @@ fn end(now: &Beside, next: &Next) -> Result<Join, Fault> {
 }
 
 /// The end of the block that begins compensation.
-fn begin(now: &Beside, next: &Next, start: CompensationStart) -> Result<Join, Fault> {
+fn begin(now: &Beside, next: &Next, start: CompensationStart) -> Join {
     let Beside { edge, offset } = now;
-    let Next::Element(next) = next else { return Ok(Join::at(edge.normal(1, offset.radius))) };
+    let Next::Element(next) = next else { return Join::at(edge.normal(1, offset.radius)) };
     let square = Join::at(next.edge.normal(0, offset.radius));
     if start == CompensationStart::Square {
-        return Ok(square);
+        return square;
     }
     let bend = corner::bend(edge, &next.edge);
     if corner::side_of(&bend, offset.radius) != Corner::Outside {
-        return Ok(square);
+        return square;
     }
     // Up to a right angle the intersection, whatever the corners are; beyond it as a corner, from its own foot on.
     let join = corner::outside(edge, &next.edge, &bend, offset.radius, offset.round_corners && bend.cos < 0.0);
     if join.round || bend.cos >= 0.0 {
-        return Ok(join);
+        return join;
     }
     let mut places = [edge.normal(1, offset.radius); 4];
     let rest = places.iter_mut().skip(1).zip(join.places());
     let count = rest.map(|(slot, place)| *slot = *place).count() + 1;
-    Ok(Join::through(Corner::Outside, places.get(..count).unwrap_or_default()))
+    Join::through(Corner::Outside, places.get(..count).unwrap_or_default())
 }

@@ -2,10 +2,10 @@
 //! at its end.
 
 use base::Point;
-use meaning::{Act, ArcMove, Element, Feed, Operation, RapidKind};
+use meaning::{Act, ArcMove, Element, Feed, Offset, Operation, RapidKind};
 
 use crate::arc::Arc;
-use crate::compensation::{Beside, Corner, Join, Plan, Vector, angle, less};
+use crate::compensation::{Beside, Corner, Edge, Join, Plan, Vector, angle, less};
 use crate::shape::{Part, Programmed, RunBeside, Shape, Shaped};
 
 /// A piece shorter than this, mm, has no length: rounding made it.
@@ -16,83 +16,70 @@ const COUNTS: f64 = 1e6;
 /// A plan being carried out.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Pieces {
-    work: Option<Work>,
-    /// The piece that comes next.
+    /// Pieces of the plan, and the one that comes next.
+    count: u8,
     next: u8,
-}
-
-#[derive(Clone, Copy)]
-struct Work {
-    operation: Operation,
-    element: Element,
-    beside: Beside,
-    plan: Plan,
+    /// Pieces before the one that runs beside the element.
+    ahead: u8,
     certain: bool,
+    element: Element,
+    edge: Edge,
+    offset: Offset,
+    plan: Plan,
     /// Where the axes stood before it.
     from: Point,
 }
 
 impl Pieces {
-    /// The pieces of an operation, whose block stands in the plane as `element`; the axes stand at `from`.
-    pub fn new(
-        operation: Operation,
-        element: Element,
-        beside: Beside,
-        plan: Plan,
-        certain: bool,
-        from: &Point,
-    ) -> Pieces {
-        Pieces { work: Some(Work { operation, element, beside, plan, certain, from: *from }), next: 0 }
+    /// Begins the pieces of an element, planned with the axes standing at `from`.
+    pub fn begin(&mut self, element: Element, beside: &Beside, plan: &Plan, certain: bool, from: &Point) {
+        // The first place of the way to the element is where the tool stands.
+        self.ahead = plan.before.as_ref().map_or(0, |join| join.places().len().saturating_sub(1) as u8);
+        self.count = self.ahead + plan.after.places().len() as u8;
+        self.next = 0;
+        self.certain = certain;
+        self.element = element;
+        self.edge = beside.edge;
+        self.offset = beside.offset;
+        self.plan = *plan;
+        if self.ahead > 0 {
+            self.from = *from;
+        }
     }
 
     /// True until the last piece is out.
     #[inline]
     pub fn is_open(&self) -> bool {
-        self.work.is_some()
+        self.next < self.count
     }
 
-    /// Writes the next piece that has a length; false if there is none.
-    pub fn next(&mut self, position: &mut Point, shaped: &mut Shaped) -> bool {
-        while let Some(work) = &self.work {
-            let index = usize::from(self.next);
-            let last = index + 1 == work.count();
-            let made = work.piece(index, last, position, shaped);
+    /// Writes the next piece that has a length; false if there is none. The operation is the one that was planned.
+    pub fn next(&mut self, operation: &Operation, position: &mut Point, shaped: &mut Shaped) -> bool {
+        while self.is_open() {
+            let index = self.next;
             self.next += 1;
-            if last {
-                self.work = None;
-            }
-            if made {
+            if self.piece(operation, usize::from(index), position, shaped) {
                 return true;
             }
         }
         false
     }
-}
-
-impl Work {
-    /// Pieces before the one that runs beside the element: the first place of that way is where the tool stands.
-    fn ahead(&self) -> usize {
-        self.plan.before.as_ref().map_or(0, |join| join.places().len().saturating_sub(1))
-    }
-
-    fn count(&self) -> usize {
-        self.ahead() + self.plan.after.places().len()
-    }
 
     /// Writes a piece; false if it has no length.
-    fn piece(&self, index: usize, last: bool, position: &mut Point, shaped: &mut Shaped) -> bool {
-        let ahead = self.ahead();
+    fn piece(&self, operation: &Operation, index: usize, position: &mut Point, shaped: &mut Shaped) -> bool {
+        let ahead = usize::from(self.ahead);
+        let last = index + 1 == usize::from(self.count);
         let (join, step, programmed) = match (index.checked_sub(ahead), &self.plan.before) {
             (None, Some(before)) => (before, index + 1, self.element.from),
             (behind, _) => (&self.plan.after, behind.unwrap_or(0), self.element.to),
         };
-        let (Some(&vector), Some(end)) = (join.places().get(step), self.end()) else { return false };
-        let axes = self.beside.offset.axes;
+        let (Some(&vector), Some(end)) = (join.places().get(step), end_of(operation)) else { return false };
+        let axes = self.offset.axes;
         let from = *position;
-        let to = placed(if index < ahead { &self.from } else { &end }, axes, programmed, vector);
+        let to = placed(if index < ahead { &self.from } else { end }, axes, programmed, vector);
         let along = index == ahead;
         let arc = match along {
-            true if self.beside.edge.is_arc() => Some(self.arc_beside(&from, &to)),
+            true if self.edge.is_arc() => Some(self.arc_beside(&from, &to)),
             false if join.round && step == 1 => Some(self.arc_round(&from, &to, join, programmed)),
             _ => None,
         };
@@ -103,12 +90,12 @@ impl Work {
         // An arc shrunk to its centre is a turn on the spot.
         let arc = arc.filter(|_| length >= NO_LENGTH);
         *position = to;
-        shaped.shape = self.shape(arc, from, to, last);
-        shaped.block = self.operation.block;
-        shaped.place = self.operation.place;
-        shaped.stop_point = self.operation.stop_point && last;
+        shaped.shape = shape(operation, arc, from, to, last);
+        shaped.block = operation.block;
+        shaped.place = operation.place;
+        shaped.stop_point = operation.stop_point && last;
         shaped.until_signal = false;
-        shaped.stroke_check = self.operation.stroke_check;
+        shaped.stroke_check = operation.stroke_check;
         shaped.certain = self.certain;
         shaped.beside = Some(RunBeside {
             part: match (along, self.plan.starts) {
@@ -116,39 +103,11 @@ impl Work {
                 (true, false) => Part::Along,
                 (false, _) => Part::Round,
             },
-            radius: self.beside.offset.radius,
+            radius: self.offset.radius,
             corner: if along { self.plan.after.corner } else { Corner::None },
-            programmed: along.then(|| self.programmed(&from, &end)),
+            programmed: along.then(|| self.programmed(&from, end)),
         });
         true
-    }
-
-    /// Where the operation ends as programmed.
-    fn end(&self) -> Option<Point> {
-        match &self.operation.act {
-            Act::Rapid { to, .. } | Act::Line { to, .. } => Some(*to),
-            Act::Arc { arc, .. } => Some(arc.to),
-            _ => None,
-        }
-    }
-
-    /// The shape from here to there; of a block in pieces only the last one ends exactly.
-    fn shape(&self, arc: Option<Arc>, from: Point, to: Point, last: bool) -> Shape {
-        let feed = match self.operation.act {
-            Act::Line { feed, .. } | Act::Arc { feed, .. } => feed,
-            // A corner in a positioning block is rounded at the rapid rate.
-            _ => {
-                Feed { mm_per_min: f64::INFINITY, exact_stop: true, tapping: false, per_revolution: false, way_mm: 0.0 }
-            }
-        };
-        let feed = Feed { exact_stop: feed.exact_stop && last, ..feed };
-        match (arc, self.operation.act) {
-            (Some(arc), _) => Shape::Arc { arc, feed },
-            (None, Act::Rapid { kind, .. }) => {
-                Shape::Rapid { from, to, kind: if last { kind } else { RapidKind::Unchecked } }
-            }
-            (None, _) => Shape::Line { from, to, feed },
-        }
     }
 
     /// The arc beside the programmed one: about the same centre.
@@ -160,12 +119,12 @@ impl Work {
     /// The arc about a corner, from one foot to the other, away from the tool's side.
     fn arc_round(&self, from: &Point, to: &Point, join: &Join, corner: Vector) -> Arc {
         let [first, second] = [0, 1].map(|place| join.places().get(place).copied().unwrap_or_default());
-        let sweep = angle(first, second).abs().copysign(-self.beside.offset.radius);
+        let sweep = angle(first, second).abs().copysign(-self.offset.radius);
         self.arc_about(corner.map(|counts| counts / COUNTS), from, to, sweep)
     }
 
     fn arc_about(&self, center: Vector, from: &Point, to: &Point, sweep: f64) -> Arc {
-        let offset = &self.beside.offset;
+        let offset = &self.offset;
         let spokes = [from, to].map(|end| less(in_plane(end, offset.axes), center));
         let radius = spokes.map(|spoke| libm::hypot(spoke[0], spoke[1]));
         // What differs by rounding alone is a circle, not a spiral.
@@ -184,7 +143,7 @@ impl Work {
 
     /// The programmed way that a piece runs beside.
     fn programmed(&self, from: &Point, end: &Point) -> Programmed {
-        let axes = self.beside.offset.axes;
+        let axes = self.offset.axes;
         let start = placed(from, axes, self.element.from, [0.0; 2]);
         let end = placed(end, axes, self.element.to, [0.0; 2]);
         match self.element.turn {
@@ -193,7 +152,7 @@ impl Work {
                 &start,
                 &ArcMove {
                     to: end,
-                    plane: self.beside.offset.plane,
+                    plane: self.offset.plane,
                     axes,
                     center: turn.center.map(|counts| counts / COUNTS),
                     clockwise: turn.clockwise,
@@ -201,6 +160,32 @@ impl Work {
                 },
             )),
         }
+    }
+}
+
+/// Where an operation ends as programmed.
+fn end_of(operation: &Operation) -> Option<&Point> {
+    match &operation.act {
+        Act::Rapid { to, .. } | Act::Line { to, .. } => Some(to),
+        Act::Arc { arc, .. } => Some(&arc.to),
+        _ => None,
+    }
+}
+
+/// The shape from here to there; of a block in pieces only the last one ends exactly.
+fn shape(operation: &Operation, arc: Option<Arc>, from: Point, to: Point, last: bool) -> Shape {
+    let feed = match operation.act {
+        Act::Line { feed, .. } | Act::Arc { feed, .. } => feed,
+        // A corner in a positioning block is rounded at the rapid rate.
+        _ => Feed { mm_per_min: f64::INFINITY, exact_stop: true, tapping: false, per_revolution: false, way_mm: 0.0 },
+    };
+    let feed = Feed { exact_stop: feed.exact_stop && last, ..feed };
+    match (arc, operation.act) {
+        (Some(arc), _) => Shape::Arc { arc, feed },
+        (None, Act::Rapid { kind, .. }) => {
+            Shape::Rapid { from, to, kind: if last { kind } else { RapidKind::Unchecked } }
+        }
+        (None, _) => Shape::Line { from, to, feed },
     }
 }
 

@@ -4,7 +4,7 @@ use base::Point;
 use meaning::{Act, Answer, Interpreter, Operation, Pull, StaleBarrier};
 
 use crate::arc::Arc;
-use crate::offsetting::Offsetting;
+use crate::offsetting::{Offsetting, Taken};
 use crate::shape::{Shape, Shaped};
 
 /// The stage that makes paths of operations.
@@ -49,7 +49,7 @@ impl Path {
     pub fn next(&mut self) -> Pull<&Shaped> {
         let Path { upstream, position, offsetting, held, shaped } = self;
         loop {
-            if offsetting.next_piece(position, shaped) {
+            if offsetting.next_piece(upstream, position, shaped) {
                 return Pull::Item(shaped);
             }
             if !std::mem::take(held) {
@@ -59,25 +59,25 @@ impl Path {
                     Pull::End => return Pull::End,
                 }
             }
-            if !upstream.current().compensated && !offsetting.is_on() {
-                if shape(upstream.current(), position, shaped) {
-                    return Pull::Item(shaped);
-                }
-                continue;
-            }
-            match offsetting.take(upstream, position) {
-                Ok(None) => {}
-                Ok(Some(operation)) => {
-                    let is_move = shape(&operation, position, shaped);
-                    if is_move {
-                        offsetting.note(shaped);
-                        return Pull::Item(shaped);
+            let (mut beside, mut is_refused) = (None, None);
+            if upstream.current().compensated || offsetting.is_on() {
+                match offsetting.take(upstream, position) {
+                    Ok(Taken::Pieces) => continue,
+                    Ok(Taken::AsItIs(axes, vector)) => beside = Some((axes, vector)),
+                    Ok(Taken::Refused(alarm)) => is_refused = Some(alarm),
+                    Err(barrier) => {
+                        *held = true;
+                        return Pull::Barrier(barrier);
                     }
                 }
-                Err(barrier) => {
-                    *held = true;
-                    return Pull::Barrier(barrier);
-                }
+            }
+            let is_shape = shape(upstream.current(), beside, position, shaped);
+            shaped.certain = !offsetting.is_doubtful();
+            if let Some(alarm) = is_refused {
+                shaped.shape = Shape::Alarm(alarm);
+            }
+            if is_shape || is_refused.is_some() {
+                return Pull::Item(shaped);
             }
         }
     }
@@ -89,14 +89,22 @@ impl Path {
 }
 
 /// Writes the operation's shape; false for a move of no length.
-fn shape(operation: &Operation, position: &mut Point, shaped: &mut Shaped) -> bool {
+fn shape(
+    operation: &Operation,
+    beside: Option<([u8; 2], [f64; 2])>,
+    position: &mut Point,
+    shaped: &mut Shaped,
+) -> bool {
     let from = *position;
+    let beside = |to: Point| beside.map_or(to, |(axes, vector)| moved(to, axes, vector));
     let to = match operation.act {
         Act::Rapid { to, kind } => {
+            let to = beside(to);
             shaped.shape = Shape::Rapid { from, to, kind };
             to
         }
         Act::Line { to, feed } => {
+            let to = beside(to);
             shaped.shape = Shape::Line { from, to, feed };
             to
         }
@@ -147,4 +155,14 @@ fn shape(operation: &Operation, position: &mut Point, shaped: &mut Shaped) -> bo
     };
     *position = to;
     moves || operation.from_unknown
+}
+
+/// A point moved in the plane of two axes.
+fn moved(mut point: Point, axes: [u8; 2], vector: [f64; 2]) -> Point {
+    for (axis, way) in axes.iter().zip(vector) {
+        if let Some(place) = point.get_mut(usize::from(*axis)) {
+            *place += way;
+        }
+    }
+    point
 }

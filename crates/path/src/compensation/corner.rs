@@ -25,7 +25,7 @@ pub enum Corner {
 
 /// How the tool gets from one element to the next: places beside the corner, the first where the first element's path
 /// ends, the last where the next one's begins.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Join {
     places: [Vector; MOST],
     count: u8,

@@ -9,7 +9,7 @@ use crate::arc::sweep_between;
 const COUNTS: f64 = 1e6;
 
 /// An element's shape, free of where it lies; mm.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Edge {
     /// Unit tangents at its start and end.
     pub tangent: [Vector; 2],
