@@ -2,16 +2,14 @@
 //! at its end.
 
 use base::Point;
-use meaning::{Act, ArcMove, Element, Feed, Offset, Operation, RapidKind};
+use meaning::{Act, Element, Feed, Offset, Operation, RapidKind};
 
 use crate::arc::Arc;
 use crate::compensation::{Beside, Corner, Edge, Join, Plan, Vector, angle, less};
-use crate::shape::{Part, Programmed, RunBeside, Shape, Shaped};
+use crate::shape::{COUNTS, Part, RunBeside, Shape, Shaped};
 
 /// A piece shorter than this, mm, has no length: rounding made it.
 const NO_LENGTH: f64 = 1e-9;
-/// Counts a mm.
-const COUNTS: f64 = 1e6;
 
 /// A plan being carried out.
 #[derive(Clone, Copy, Default)]
@@ -105,7 +103,9 @@ impl Pieces {
             },
             radius: self.offset.radius,
             corner: if along { self.plan.after.corner } else { Corner::None },
-            programmed: along.then(|| self.programmed(&from, end)),
+            way: along.then_some(self.element),
+            plane: self.offset.plane,
+            axes,
         });
         true
     }
@@ -138,27 +138,6 @@ impl Pieces {
             radius: if is_circle { [radius[0]; 2] } else { radius },
             start_angle: libm::atan2(spokes[0][1], spokes[0][0]),
             sweep,
-        }
-    }
-
-    /// The programmed way that a piece runs beside.
-    fn programmed(&self, from: &Point, end: &Point) -> Programmed {
-        let axes = self.offset.axes;
-        let start = placed(from, axes, self.element.from, [0.0; 2]);
-        let end = placed(end, axes, self.element.to, [0.0; 2]);
-        match self.element.turn {
-            None => Programmed::Line(start, end),
-            Some(turn) => Programmed::Arc(Arc::new(
-                &start,
-                &ArcMove {
-                    to: end,
-                    plane: self.offset.plane,
-                    axes,
-                    center: turn.center.map(|counts| counts / COUNTS),
-                    clockwise: turn.clockwise,
-                    full_circle: turn.full_circle,
-                },
-            )),
         }
     }
 }

@@ -1,10 +1,13 @@
 //! What the stage hands on: shapes, each with where it comes from.
 
 use base::{Alarm, Place, Point};
-use meaning::{Close, CodeOut, Dwell, Feed, RapidKind, SetValue, StopKind};
+use meaning::{ArcMove, Close, CodeOut, Dwell, Element, Feed, Plane, RapidKind, SetValue, StopKind, Turn};
 
 use crate::arc::Arc;
 use crate::compensation::Corner;
+
+/// Counts a mm.
+pub(crate) const COUNTS: f64 = 1e6;
 
 /// What happens, with its geometry.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -80,8 +83,34 @@ pub struct RunBeside {
     pub radius: f64,
     /// The corner at the block's end, with the move that leads to it; `None` with every other.
     pub corner: Corner,
-    /// The programmed way of the block, with the move that runs beside it.
-    pub programmed: Option<Programmed>,
+    /// The programmed way of the block in the plane, with the move that runs beside it.
+    pub way: Option<Element>,
+    /// The plane.
+    pub plane: Plane,
+    /// Its two axes.
+    pub axes: [u8; 2],
+}
+
+impl RunBeside {
+    /// The programmed way that a move between these points runs beside; mm.
+    pub fn programmed(&self, from: &Point, to: &Point) -> Option<Programmed> {
+        let way = self.way?;
+        let at = |point: &Point, counts: [f64; 2]| {
+            let mut point = *point;
+            for (axis, counts) in self.axes.iter().zip(counts) {
+                if let Some(place) = point.get_mut(usize::from(*axis)) {
+                    *place = counts / COUNTS;
+                }
+            }
+            point
+        };
+        let (start, end) = (at(from, way.from), at(to, way.to));
+        let Some(turn) = way.turn else { return Some(Programmed::Line(start, end)) };
+        let Turn { center, clockwise, full_circle } = turn;
+        let center = center.map(|counts| counts / COUNTS);
+        let arc = ArcMove { to: end, plane: self.plane, axes: self.axes, center, clockwise, full_circle };
+        Some(Programmed::Arc(Arc::new(&start, &arc)))
+    }
 }
 
 /// Which part of a compensated block a move is.

@@ -2,11 +2,9 @@
 
 use meaning::Element;
 
-use super::vector::{NONE, Vector, angle, cross, dot, left, length, less, times};
+use super::vector::{Vector, add, angle, cross, dot, left, length, less, times};
 use crate::arc::sweep_between;
-
-/// Counts a mm.
-const COUNTS: f64 = 1e6;
+use crate::shape::COUNTS;
 
 /// An element's shape, free of where it lies; mm.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -17,8 +15,6 @@ pub(crate) struct Edge {
     pub curvature: [f64; 2],
     /// Length of a line.
     pub length: f64,
-    /// From the centre of an arc to its start and end.
-    pub spoke: [Vector; 2],
     /// Angle of an arc, radians, + counter-clockwise; 0 for a line.
     pub sweep: f64,
     /// An arc all the way round.
@@ -36,7 +32,6 @@ impl Edge {
                 tangent: [tangent; 2],
                 curvature: [0.0; 2],
                 length,
-                spoke: [NONE; 2],
                 sweep: 0.0,
                 full_circle: false,
             });
@@ -48,7 +43,6 @@ impl Edge {
             tangent: [0, 1].map(|end| times(left(spoke[end]), sense / radius[end])),
             curvature: radius.map(|radius| sense / radius),
             length: 0.0,
-            spoke,
             sweep: sweep_between(spoke[0], spoke[1], turn.clockwise, turn.full_circle),
             full_circle: turn.full_circle,
         })
@@ -64,11 +58,16 @@ impl Edge {
         times(left(self.tangent[end]), long)
     }
 
+    /// From the centre of an arc to its start or end.
+    pub fn spoke(&self, end: usize) -> Vector {
+        times(left(self.tangent[end]), -1.0 / self.curvature[end])
+    }
+
     /// The angle of an arc's path that begins and ends beside it by these vectors, radians.
     pub fn sweep_beside(&self, vectors: [Vector; 2]) -> f64 {
         let shift = |end: usize| {
-            let spoke = self.spoke[end];
-            let moved = [spoke[0] + vectors[end][0], spoke[1] + vectors[end][1]];
+            let spoke = self.spoke(end);
+            let moved = add(spoke, vectors[end]);
             // On its own ray nothing is to be turned; the centre itself has no direction.
             if cross(spoke, moved) == 0.0 || dot(moved, moved) == 0.0 { 0.0 } else { angle(spoke, moved) }
         };

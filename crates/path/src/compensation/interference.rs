@@ -41,7 +41,7 @@ pub(crate) fn judge(edge: &Edge, vectors: [Vector; 2], s: [f64; 2], rules: &Comp
         }
     }
     let sweep = edge.sweep_beside(vectors) * edge.sweep.signum();
-    let radius = length(edge.spoke[1]).max(BACKWARDS_MM);
+    let radius = (1.0 / edge.curvature[1].abs()).max(BACKWARDS_MM);
     if sweep * radius < -BACKWARDS_MM {
         return Err(Fault::Reversed(-sweep * radius));
     }
