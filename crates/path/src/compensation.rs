@@ -25,16 +25,17 @@ use interference::judge;
 pub(crate) use vector::{NONE, Vector, angle, less};
 
 /// An element with the offset of its block.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Beside {
     pub edge: Edge,
     pub offset: Offset,
 }
 
 /// What the buffer shows behind an element.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) enum Next {
     /// Nothing with a way in the plane: it is not read yet, or too many blocks without one stand between.
+    #[default]
     Unseen,
     /// A block that runs without the offset.
     Ends,

@@ -5,7 +5,7 @@ use base::{Alarm, Condition, Point};
 use meaning::{Act, Barrier, Command, Element, Interpreter};
 
 use crate::compensation::{Beside, Compensation, Edge, Fault, Join, Next, Rules, Vector, Which};
-use crate::pieces::Pieces;
+use crate::pieces::{Carried, Pieces};
 use crate::shape::Shaped;
 
 /// Blocks without a way in the plane that the look ahead passes over; more of them make the tool stop.
@@ -13,8 +13,10 @@ const BRIDGED: u8 = 1;
 
 /// What becomes of an operation.
 pub(crate) enum Taken {
-    /// It runs in pieces.
-    Pieces,
+    /// Its first piece has been written.
+    Piece,
+    /// It has no length.
+    Nothing,
     /// It runs as it is, the plane's axes beside their programmed place by a vector.
     AsItIs([u8; 2], Vector),
     /// Its block is refused.
@@ -28,17 +30,20 @@ pub(crate) struct Offsetting {
     /// The block whose ways are counted, and how many of them have been taken.
     block: u64,
     part: u8,
-    /// What was made of the way behind the one taken last.
-    known: Option<Known>,
+    /// What is known of a way: the one behind that taken last, if `is_known`.
+    ahead: Ahead,
+    is_known: bool,
     /// The plan being carried out.
     pieces: Pieces,
 }
 
-/// A way that has been looked at, with its end and what follows it.
-struct Known {
+/// A way with what follows it.
+#[derive(Default)]
+struct Ahead {
     block: u64,
     part: u8,
     way: Beside,
+    /// Its end, if it is known.
     end: Join,
     next: Next,
     /// Where what follows stands, counted from the way's own block.
@@ -46,7 +51,7 @@ struct Known {
 }
 
 /// A way in the buffer: its block's place, counted from the one being executed, and its number in the block.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 struct At {
     index: usize,
     part: u8,
@@ -75,7 +80,12 @@ impl Offsetting {
     ///
     /// # Errors
     /// The buffer cannot be looked into before a barrier is answered; the same operation is to be taken again then.
-    pub fn take(&mut self, upstream: &mut Interpreter, position: &Point) -> Result<Taken, Barrier> {
+    pub fn take(
+        &mut self,
+        upstream: &mut Interpreter,
+        position: &mut Point,
+        shaped: &mut Shaped,
+    ) -> Result<Taken, Barrier> {
         let operation = upstream.current();
         let is_move = matches!(operation.act, Act::Rapid { .. } | Act::Line { .. } | Act::Arc { .. });
         let block = operation.block;
@@ -85,13 +95,14 @@ impl Offsetting {
         if self.block != block {
             (self.block, self.part) = (block, 0);
         }
+        let part = self.part;
         let offset = command.offset();
         let axes = offset.map_or(self.compensation.axes(), |offset| offset.axes);
         if command.drops_offset(axes) {
             self.compensation.drop_on(axes.map(|axis| command.drops_on(axis)));
             return Ok(self.as_it_is(axes));
         }
-        let Some(element) = command.element(axes, self.part) else { return Ok(self.as_it_is(axes)) };
+        let Some(element) = command.element(axes, part) else { return Ok(self.as_it_is(axes)) };
         let Some(offset) = offset else {
             self.compensation.cancel();
             return Ok(match element.turn {
@@ -99,81 +110,75 @@ impl Offsetting {
                 None => Taken::AsItIs(axes, [0.0; 2]),
             });
         };
-        let part = self.part;
-        let known = self.known.take().filter(|known| known.block == block && known.part == part);
-        match known {
-            Some(known) => self.run(upstream, position, element, &known.way, (known.next, known.at), Some(&known.end)),
-            None => {
-                let Some(edge) = Edge::new(&element) else { return Ok(self.as_it_is(axes)) };
-                let next = look(upstream, At { index: 0, part, block }, axes)?;
-                self.run(upstream, position, element, &Beside { edge, offset }, next, None)
+        if !self.is_known || (self.ahead.block, self.ahead.part) != (block, part) {
+            self.is_known = false;
+            let Some(edge) = Edge::new(&element) else { return Ok(self.as_it_is(axes)) };
+            (self.ahead.next, self.ahead.at) = look(upstream, At { index: 0, part, block }, axes)?;
+            self.ahead.way = Beside { edge, offset };
+        }
+        let (after, behind) = match self.ahead.next {
+            Next::Element(_) => look(upstream, self.ahead.at, axes)?,
+            _ => (Next::Unseen, self.ahead.at),
+        };
+        self.part += 1;
+        match self.run(upstream, &element, (&after, behind), position, shaped) {
+            Ok(true) => Ok(Taken::Piece),
+            Ok(false) => Ok(Taken::Nothing),
+            Err((index, fault)) => {
+                let radius = self.ahead.way.offset.radius.abs();
+                self.compensation.pass(&self.ahead.way);
+                self.is_known = false;
+                let command = upstream.look_ahead(index)?;
+                Ok(command.map_or(Taken::Nothing, |command| Taken::Refused(alarm_of(fault, command, axes, radius))))
             }
         }
     }
 
-    /// Runs an element, if it and the next one can be.
+    /// Runs the way at hand, if it and the next one can be run; false if it has no length.
+    ///
+    /// # Errors
+    /// The place in the buffer of the block that is at fault.
     fn run(
         &mut self,
-        upstream: &mut Interpreter,
-        position: &Point,
-        element: Element,
-        now: &Beside,
-        (next, at): (Next, At),
-        end: Option<&Join>,
-    ) -> Result<Taken, Barrier> {
+        upstream: &Interpreter,
+        element: &Element,
+        (after, behind): (&Next, At),
+        position: &mut Point,
+        shaped: &mut Shaped,
+    ) -> Result<bool, (usize, Fault)> {
+        let Offsetting { compensation, ahead, is_known, pieces, .. } = self;
         let policies = &upstream.fitting().policies;
         let (start, restart) = (policies.compensation_start, policies.compensation_restart);
         let rules = Rules { start, restart, table: upstream.control().functions.compensation };
-        let axes = now.offset.axes;
-        let (after, behind) = match next {
-            Next::Element(_) => look(upstream, at, axes)?,
-            _ => (Next::Unseen, at),
-        };
-        self.part += 1;
-        let tool = now.offset.radius.abs();
-        let plan = match self.compensation.plan(now, &next, end, &rules) {
-            Ok(plan) => plan,
-            Err((which, fault)) => {
-                let index = if which == Which::This { 0 } else { at.index };
-                self.compensation.pass(now);
-                return refused(upstream, index, fault, axes, tool);
+        let Ahead { way, end, next, at, .. } = ahead;
+        let plan = compensation
+            .plan(way, next, is_known.then_some(&*end), &rules)
+            .map_err(|(which, fault)| (if which == Which::This { 0 } else { at.index }, fault))?;
+        let end_of_next = match next {
+            Next::Element(next) => {
+                Compensation::look_past(way, &plan, next, after, &rules).map_err(|fault| (at.index, fault))?
             }
+            _ => None,
         };
-        if let Next::Element(way) = &next {
-            match Compensation::look_past(now, &plan, way, &after, &rules) {
-                Ok(end) => {
-                    let at_next = At { index: behind.index - at.index, ..behind };
-                    let seen = end.filter(|_| after != Next::Unseen);
-                    self.known = seen.map(|end| Known {
-                        block: at.block,
-                        part: at.part,
-                        way: *way,
-                        end,
-                        next: after,
-                        at: at_next,
-                    });
-                }
-                Err(fault) => {
-                    self.compensation.pass(now);
-                    return refused(upstream, at.index, fault, axes, tool);
-                }
-            }
+        let certain = !compensation.is_doubtful();
+        compensation.take(way, &plan, next);
+        let from = *position;
+        let carried = Carried { element, edge: &way.edge, offset: &way.offset, plan: &plan, from: &from, certain };
+        let has_length = pieces.begin(&carried, upstream.current(), position, shaped);
+        // The way behind it is the next one's turn.
+        *is_known = false;
+        if let (Next::Element(beside), Some(end_of_next), true) = (*next, end_of_next, *after != Next::Unseen) {
+            (ahead.block, ahead.part) = (at.block, at.part);
+            *at = At { index: behind.index - at.index, ..behind };
+            (*way, *end, *next) = (beside, end_of_next, *after);
+            *is_known = true;
         }
-        let certain = !self.compensation.is_doubtful();
-        self.compensation.take(now, &plan, &next);
-        self.pieces.begin(element, now, &plan, certain, position);
-        Ok(Taken::Pieces)
+        Ok(has_length)
     }
 
     fn as_it_is(&self, axes: [u8; 2]) -> Taken {
         Taken::AsItIs(axes, self.compensation.vector())
     }
-}
-
-/// The refusal of what is found at fault in the block at a place of the buffer.
-fn refused(upstream: &mut Interpreter, index: usize, fault: Fault, axes: [u8; 2], tool: f64) -> Result<Taken, Barrier> {
-    let seen = upstream.look_ahead(index)?;
-    Ok(seen.map_or(Taken::AsItIs(axes, [0.0; 2]), |command| Taken::Refused(alarm_of(fault, command, axes, tool))))
 }
 
 /// What follows a way in the buffer, and where that stands.

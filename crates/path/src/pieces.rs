@@ -5,7 +5,7 @@ use base::Point;
 use meaning::{Act, Element, Feed, Offset, Operation, RapidKind};
 
 use crate::arc::Arc;
-use crate::compensation::{Beside, Corner, Edge, Join, Plan, Vector, angle, less};
+use crate::compensation::{Corner, Edge, Join, Plan, Vector, angle, less};
 use crate::shape::{COUNTS, Part, RunBeside, Shape, Shaped};
 
 /// A piece shorter than this, mm, has no length: rounding made it.
@@ -17,8 +17,6 @@ pub(crate) struct Pieces {
     /// Pieces of the plan, and the one that comes next.
     count: u8,
     next: u8,
-    /// Pieces before the one that runs beside the element.
-    ahead: u8,
     certain: bool,
     element: Element,
     edge: Edge,
@@ -28,45 +26,83 @@ pub(crate) struct Pieces {
     from: Point,
 }
 
-impl Pieces {
-    /// Begins the pieces of an element, planned with the axes standing at `from`.
-    pub fn begin(&mut self, element: Element, beside: &Beside, plan: &Plan, certain: bool, from: &Point) {
-        // The first place of the way to the element is where the tool stands.
-        self.ahead = plan.before.as_ref().map_or(0, |join| join.places().len().saturating_sub(1) as u8);
-        self.count = self.ahead + plan.after.places().len() as u8;
-        self.next = 0;
-        self.certain = certain;
-        self.element = element;
-        self.edge = beside.edge;
-        self.offset = beside.offset;
-        self.plan = *plan;
-        if self.ahead > 0 {
-            self.from = *from;
-        }
-    }
+/// What the pieces of a plan are made from.
+pub(crate) struct Carried<'c> {
+    /// The element.
+    pub element: &'c Element,
+    /// Its shape.
+    pub edge: &'c Edge,
+    /// The offset of its block.
+    pub offset: &'c Offset,
+    /// The plan.
+    pub plan: &'c Plan,
+    /// Where the axes stood before it.
+    pub from: &'c Point,
+    /// Where it begins is certain.
+    pub certain: bool,
+}
 
+impl Pieces {
     /// True until the last piece is out.
     #[inline]
     pub fn is_open(&self) -> bool {
         self.next < self.count
     }
 
+    /// Writes the first piece of a plan that has a length and keeps the others; false if none has.
+    pub fn begin(&mut self, work: &Carried, operation: &Operation, position: &mut Point, shaped: &mut Shaped) -> bool {
+        let count = work.count();
+        for index in 0..count {
+            if !work.piece(operation, index, position, shaped) {
+                continue;
+            }
+            if index + 1 < count {
+                let Carried { element, edge, offset, plan, from, certain } = *work;
+                *self = Pieces {
+                    count: count as u8,
+                    next: index as u8 + 1,
+                    certain,
+                    element: *element,
+                    edge: *edge,
+                    offset: *offset,
+                    plan: *plan,
+                    from: *from,
+                };
+            }
+            return true;
+        }
+        false
+    }
+
     /// Writes the next piece that has a length; false if there is none. The operation is the one that was planned.
     pub fn next(&mut self, operation: &Operation, position: &mut Point, shaped: &mut Shaped) -> bool {
         while self.is_open() {
-            let index = self.next;
+            let index = usize::from(self.next);
             self.next += 1;
-            if self.piece(operation, usize::from(index), position, shaped) {
+            let Pieces { element, edge, offset, plan, from, certain, .. } = self;
+            let work = Carried { element, edge, offset, plan, from, certain: *certain };
+            if work.piece(operation, index, position, shaped) {
                 return true;
             }
         }
         false
     }
+}
+
+impl Carried<'_> {
+    /// Pieces before the one that runs beside the element: the first place of that way is where the tool stands.
+    fn ahead(&self) -> usize {
+        self.plan.before.as_ref().map_or(0, |join| join.places().len().saturating_sub(1))
+    }
+
+    fn count(&self) -> usize {
+        self.ahead() + self.plan.after.places().len()
+    }
 
     /// Writes a piece; false if it has no length.
     fn piece(&self, operation: &Operation, index: usize, position: &mut Point, shaped: &mut Shaped) -> bool {
-        let ahead = usize::from(self.ahead);
-        let last = index + 1 == usize::from(self.count);
+        let ahead = self.ahead();
+        let last = index + 1 == self.count();
         let (join, step, programmed) = match (index.checked_sub(ahead), &self.plan.before) {
             (None, Some(before)) => (before, index + 1, self.element.from),
             (behind, _) => (&self.plan.after, behind.unwrap_or(0), self.element.to),
@@ -74,7 +110,7 @@ impl Pieces {
         let (Some(&vector), Some(end)) = (join.places().get(step), end_of(operation)) else { return false };
         let axes = self.offset.axes;
         let from = *position;
-        let to = placed(if index < ahead { &self.from } else { end }, axes, programmed, vector);
+        let to = placed(if index < ahead { self.from } else { end }, axes, programmed, vector);
         let along = index == ahead;
         let arc = match along {
             true if self.edge.is_arc() => Some(self.arc_beside(&from, &to)),
@@ -103,7 +139,7 @@ impl Pieces {
             },
             radius: self.offset.radius,
             corner: if along { self.plan.after.corner } else { Corner::None },
-            way: along.then_some(self.element),
+            way: along.then_some(*self.element),
             plane: self.offset.plane,
             axes,
         });
@@ -124,7 +160,7 @@ impl Pieces {
     }
 
     fn arc_about(&self, center: Vector, from: &Point, to: &Point, sweep: f64) -> Arc {
-        let offset = &self.offset;
+        let offset = self.offset;
         let spokes = [from, to].map(|end| less(in_plane(end, offset.axes), center));
         let radius = spokes.map(|spoke| libm::hypot(spoke[0], spoke[1]));
         // What differs by rounding alone is a circle, not a spiral.

@@ -61,8 +61,9 @@ impl Path {
             }
             let (mut beside, mut is_refused) = (None, None);
             if upstream.current().compensated || offsetting.is_on() {
-                match offsetting.take(upstream, position) {
-                    Ok(Taken::Pieces) => continue,
+                match offsetting.take(upstream, position, shaped) {
+                    Ok(Taken::Piece) => return Pull::Item(shaped),
+                    Ok(Taken::Nothing) => continue,
                     Ok(Taken::AsItIs(axes, vector)) => beside = Some((axes, vector)),
                     Ok(Taken::Refused(alarm)) => is_refused = Some(alarm),
                     Err(barrier) => {

@@ -241,6 +241,7 @@ impl<L: Library> Session<L> {
         let (position, refused) = (self.counted_position(), self.alarm.is_some());
         // What was read ahead of an alarm or of a program broken off was never executed.
         self.interpreter_mut().restore(&position, refused);
+        self.motion.upstream.stand_at(&position);
         self.interpreter_mut().select_at(source, name, head);
         self.pulled = false;
         self.between_blocks = true;
