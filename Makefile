@@ -51,6 +51,7 @@ fuzz: cargo ## throw random programs at the reader and at the whole interpreter,
 	ci/fuzz.sh interpret
 	ci/fuzz.sh macros
 	ci/fuzz.sh tape
+	ci/fuzz.sh compensation
 
 cases: cargo ## write what the program now prints into cases/; the diff is the review
 	UPDATE_CASES=1 cargo test -p cyclestart --test cases --locked

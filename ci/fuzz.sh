@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes one target (read, interpret, macros, tape) for FUZZ_SECONDS (60), or with FUZZ_RUNS inputs, each of up to FUZZ_LENGTH (256)
+# Fuzzes one target (read, interpret, macros, tape, compensation) for FUZZ_SECONDS (60), or with FUZZ_RUNS inputs, each of up to FUZZ_LENGTH (256)
 # bytes, with libFuzzer; a finding stays in fuzz/artifacts/.
 # Runs on the stable compiler; the C++ part of libFuzzer needs a C++ compiler.
 set -euo pipefail

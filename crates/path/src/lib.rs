@@ -4,6 +4,7 @@
 //! other operations as they came. Must never know: how fast anything moves.
 
 mod arc;
+mod chain;
 mod compensation;
 mod offsetting;
 mod pieces;
@@ -11,6 +12,7 @@ mod shape;
 mod stage;
 
 pub use arc::Arc;
+pub use chain::{ChainRules, Link, run_chain};
 pub use compensation::{BACKWARDS_MM, Corner, TANGENT_MM};
 pub use shape::{Part, Programmed, RunBeside, Shape, Shaped};
 pub use stage::Path;
