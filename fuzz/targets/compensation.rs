@@ -1,7 +1,7 @@
 //! Random chains of lines and arcs beside which the tool runs: whatever comes out joins up, is a number and ends.
 #![no_main]
 
-use dialect::{CompensationRules, CompensationStart};
+use dialect::{CompensationCut, CompensationRules, CompensationStart};
 use libfuzzer_sys::fuzz_target;
 use meaning::{Element, Offset, Plane, Turn};
 use path::{ChainRules, Link, Shape, run_chain};
@@ -61,6 +61,7 @@ fuzz_target!(|bytes: &[u8]| {
     }
     let rules = ChainRules {
         start: if options & 2 == 0 { CompensationStart::Square } else { CompensationStart::Corner },
+        cut: if options & 16 == 0 { CompensationCut::Run } else { CompensationCut::Refuse },
         table: CompensationRules {
             refuses_machine_places: false,
             refuses_equal_arc: options & 4 != 0,

@@ -271,8 +271,8 @@ conditions! {
     CompensatedCircleOpen = "compensated-circle-open",
     /// The tool's paths along two elements do not meet inside their corner. Values: the tool's radius.
     CompensatedPathsApart = "compensated-paths-apart",
-    /// The tool would cut an element that comes after the next. Values: by how much, the tool's radius.
-    LaterPathCut = "later-path-cut",
+    /// Beside an element near this one the tool would cut into it. Values: by how much, the tool's radius.
+    ElementCut = "element-cut",
     /// G31, or centring, while tool radius compensation is active.
     SkipInCompensation = "skip-in-compensation",
     /// A skip move went to its end without the signal.

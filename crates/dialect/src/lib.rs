@@ -42,9 +42,9 @@ pub use meaning::{Function, MMeaning, Meaning, VariableMeaning};
 pub use member::AxisLetter;
 pub use occasion::{Fate, Occasion, StateItem, StateRow};
 pub use policy::{
-    ArcWithoutCentre, CallFromLarge, CallL0, CompensationRestart, CompensationStart, CornerMode, CycleInCompensation,
-    CycleL0Moves, CycleSpindleUnknown, CycleWithMotion, DwellVariable, FeedModeChange, G87Return, G92System,
-    InchFeedInteger, LengthWithoutZ, M01OffOutput, MOver99, MdiCalls, OneShotCompany, Options, Policies,
+    ArcWithoutCentre, CallFromLarge, CallL0, CompensationCut, CompensationRestart, CompensationStart, CornerMode,
+    CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleWithMotion, DwellVariable, FeedModeChange, G87Return,
+    G92System, InchFeedInteger, LengthWithoutZ, M01OffOutput, MOver99, MdiCalls, OneShotCompany, Options, Policies,
     PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ProgrammedPosition, ReferenceVia,
     ResetPointer, ScalingBoreLevels, ScalingCompany, ScalingNegativeRatio, SkipWithoutSignal, StrokeCheck,
     SubprogramTextEnd, TipSingularity, UnitChangeOffsets,

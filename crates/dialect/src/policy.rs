@@ -90,6 +90,13 @@ policies! {
         /// On an arc, as M96.
         Arc = "arc",
     }
+    /// What becomes of a path that cuts into an element near its own, where no element is run backwards.
+    compensation_cut: CompensationCut = "compensation-cut" {
+        /// It is run.
+        Run = "run",
+        /// It is refused before it moves.
+        Refuse = "refuse",
+    }
     /// How a path is taken up again where the tool has stopped square to the path before.
     compensation_restart: CompensationRestart = "compensation-restart" {
         /// Straight from where the tool stands to the end of the block.

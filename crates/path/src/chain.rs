@@ -2,7 +2,7 @@
 //! for whoever looks at its geometry alone (oracles, random input, pictures).
 
 use base::{AXES, Point};
-use dialect::{CompensationRestart, CompensationRules, CompensationStart};
+use dialect::{CompensationCut, CompensationRestart, CompensationRules, CompensationStart};
 use meaning::{Act, ArcMove, Element, Feed, Offset, Operation};
 
 use crate::compensation::{Beside, Compensation, Edge, Next, Rules};
@@ -14,7 +14,9 @@ use crate::shape::{COUNTS, Shape, Shaped};
 pub struct ChainRules {
     /// How the first element ends.
     pub start: CompensationStart,
-    /// What is refused.
+    /// Whether a path that cuts into an element near its own is refused.
+    pub cut: CompensationCut,
+    /// What else is refused.
     pub table: CompensationRules,
 }
 
@@ -24,7 +26,7 @@ pub type Link = (Element, Option<Offset>);
 /// Runs a chain and hands on every shape that has a length; mm. Returns the element whose block is refused, if one is:
 /// nothing is run from there on.
 pub fn run_chain(chain: &[Link], rules: &ChainRules, mut each: impl FnMut(&Shape)) -> Option<usize> {
-    let rules = Rules { start: rules.start, restart: CompensationRestart::Direct, table: rules.table };
+    let rules = Rules { start: rules.start, restart: CompensationRestart::Direct, cut: rules.cut, table: rules.table };
     let mut compensation = Compensation::default();
     let mut shaped = Shaped::default();
     let mut position = chain.first().map_or([0.0; AXES], |(first, offset)| point(first.from, offset));
@@ -44,9 +46,12 @@ pub fn run_chain(chain: &[Link], rules: &ChainRules, mut each: impl FnMut(&Shape
         let now = Beside { edge, offset: *offset };
         let (next, at) = next_of(chain, index);
         let Ok(plan) = compensation.plan(&now, &next, None, &rules) else { return Some(index) };
-        if let Next::Element(beside) = &next
-            && Compensation::look_past(&now, &plan, beside, &next_of(chain, at).0, &rules).is_err()
-        {
+        let after = next_of(chain, at).0;
+        let past = match &next {
+            Next::Element(beside) => Compensation::look_past(&now, &plan, beside, &after, &rules).is_ok(),
+            _ => true,
+        };
+        if !past || compensation.look_about(&now, &plan, (&next, &after), &rules).is_err() {
             return Some(index);
         }
         compensation.take(&now, &plan, &next);

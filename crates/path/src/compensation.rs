@@ -9,20 +9,22 @@
 
 mod corner;
 mod edge;
+mod gouge;
 mod interference;
 mod intersection;
 mod vector;
 
-use dialect::{CompensationRestart, CompensationRules, CompensationStart};
+use dialect::{CompensationCut, CompensationRestart, CompensationRules, CompensationStart};
 use meaning::Offset;
 
 pub(crate) use corner::Join;
 pub use corner::{Corner, TANGENT_MM};
 pub(crate) use edge::Edge;
+use gouge::{Cut, Neighbours, cut};
 pub use interference::BACKWARDS_MM;
 pub(crate) use interference::Fault;
 use interference::judge;
-pub(crate) use vector::{NONE, Vector, angle, less};
+pub(crate) use vector::{NONE, Vector, add, angle, cross, dot, length, less, times};
 
 /// An element with the offset of its block.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -48,6 +50,7 @@ pub(crate) enum Next {
 pub(crate) struct Rules {
     pub start: CompensationStart,
     pub restart: CompensationRestart,
+    pub cut: CompensationCut,
     pub table: CompensationRules,
 }
 
@@ -56,6 +59,7 @@ pub(crate) struct Rules {
 pub(crate) enum Which {
     This,
     Next,
+    After,
 }
 
 /// How an element is run: by way of these places, all as vectors from its programmed start or end.
@@ -82,8 +86,14 @@ pub struct Compensation {
     on: bool,
     /// The radius beside the element run last.
     radius: f64,
-    /// The element run last, if the tool stopped square to its end and not where the next one begins.
-    stopped: Option<Edge>,
+    /// The element run last.
+    last: Edge,
+    /// The tool stopped square to its end, not where the next one begins.
+    stopped: bool,
+    /// It led from the programmed path, or from there to the contour.
+    leads: bool,
+    /// It led from the programmed path.
+    starts: bool,
     /// Checking on: the element before was refused.
     doubtful: bool,
 }
@@ -128,7 +138,7 @@ impl Compensation {
 
     fn leave(&mut self) {
         self.on = false;
-        self.stopped = None;
+        self.stopped = false;
         self.doubtful = false;
     }
 
@@ -188,6 +198,41 @@ impl Compensation {
         Ok(Some(end))
     }
 
+    /// Whether the path beside a planned element cuts into one near it that the buffer shows, or into the one before.
+    ///
+    /// A path that does not run beside its element all the way is not looked at: what it cuts is the control's doing.
+    ///
+    /// # Errors
+    /// The element that would be cut; the planned one stands for the one before it.
+    pub(crate) fn look_about(
+        &self,
+        now: &Beside,
+        plan: &Plan,
+        (next, after): (&Next, &Next),
+        rules: &Rules,
+    ) -> Result<(), (Which, Fault)> {
+        let radius = now.offset.radius;
+        if rules.cut == CompensationCut::Run || plan.starts || self.stopped || self.doubtful || self.radius != radius {
+            return Ok(());
+        }
+        let edge_of = |next: &Next| match next {
+            Next::Element(beside) if beside.offset.radius == radius => Some(beside.edge),
+            _ => None,
+        };
+        // An element that leads away from the contour may be cut, as one that leads to it.
+        let next_edge = edge_of(next).filter(|_| *after != Next::Ends);
+        let (next, after) = (next_edge, edge_of(after));
+        let before = Some(&self.last).filter(|_| !self.leads);
+        let near = Neighbours { before, now: &now.edge, next: next.as_ref(), after: after.as_ref() };
+        let Some((which, depth)) = cut(&near, [self.vector, plan.after.first()], radius) else { return Ok(()) };
+        let which = match which {
+            Cut::Before => Which::This,
+            Cut::Next => Which::Next,
+            Cut::After => Which::After,
+        };
+        Err((which, Fault::Cut(depth)))
+    }
+
     /// The planned element is run.
     pub(crate) fn take(&mut self, now: &Beside, plan: &Plan, next: &Next) {
         self.vector = plan.after.last();
@@ -195,7 +240,10 @@ impl Compensation {
         self.on = true;
         self.radius = now.offset.radius;
         self.doubtful = false;
-        self.stopped = if matches!(next, Next::Unseen) { Some(now.edge) } else { None };
+        self.last = now.edge;
+        self.stopped = matches!(next, Next::Unseen);
+        self.leads = plan.starts || self.starts;
+        self.starts = plan.starts;
     }
 
     /// Checking on past an element that was refused: what follows begins square to its end.
@@ -205,16 +253,21 @@ impl Compensation {
             axes: refused.offset.axes,
             on: true,
             radius: refused.offset.radius,
-            stopped: None,
+            last: refused.edge,
+            stopped: true,
+            leads: false,
+            starts: false,
             doubtful: true,
         };
     }
 
     /// Round the outside corner at which the block before stopped, by the policy that wants it.
     fn way_round(&self, now: &Beside, restart: CompensationRestart) -> Option<Join> {
-        let stopped = self.stopped.as_ref().filter(|_| restart == CompensationRestart::Corner)?;
+        if !self.stopped || restart != CompensationRestart::Corner {
+            return None;
+        }
         let same_side = self.radius == now.offset.radius;
-        let join = corner::join(stopped, &now.edge, self.radius, now.offset.round_corners).filter(|_| same_side)?;
+        let join = corner::join(&self.last, &now.edge, self.radius, now.offset.round_corners).filter(|_| same_side)?;
         if join.corner != Corner::Outside {
             return None;
         }

@@ -5,6 +5,7 @@
 
 mod arc;
 mod chain;
+mod clearance;
 mod compensation;
 mod offsetting;
 mod pieces;
@@ -13,6 +14,7 @@ mod stage;
 
 pub use arc::Arc;
 pub use chain::{ChainRules, Link, run_chain};
+pub use clearance::Curve;
 pub use compensation::{BACKWARDS_MM, Corner, TANGENT_MM};
 pub use shape::{Part, Programmed, RunBeside, Shape, Shaped};
 pub use stage::Path;

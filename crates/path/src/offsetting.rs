@@ -148,12 +148,20 @@ impl Offsetting {
     ) -> Result<bool, (usize, Fault)> {
         let Offsetting { compensation, ahead, is_known, pieces, .. } = self;
         let policies = &upstream.fitting().policies;
-        let (start, restart) = (policies.compensation_start, policies.compensation_restart);
-        let rules = Rules { start, restart, table: upstream.control().functions.compensation };
+        let rules = Rules {
+            start: policies.compensation_start,
+            restart: policies.compensation_restart,
+            cut: policies.compensation_cut,
+            table: upstream.control().functions.compensation,
+        };
         let Ahead { way, end, next, at, .. } = ahead;
-        let plan = compensation
-            .plan(way, next, is_known.then_some(&*end), &rules)
-            .map_err(|(which, fault)| (if which == Which::This { 0 } else { at.index }, fault))?;
+        let place = |(which, fault)| match which {
+            Which::This => (0, fault),
+            Which::Next => (at.index, fault),
+            Which::After => (behind.index, fault),
+        };
+        let plan = compensation.plan(way, next, is_known.then_some(&*end), &rules).map_err(place)?;
+        compensation.look_about(way, &plan, (next, after), &rules).map_err(place)?;
         let end_of_next = match next {
             Next::Element(next) => {
                 Compensation::look_past(way, &plan, next, after, &rules).map_err(|fault| (at.index, fault))?
@@ -221,7 +229,7 @@ fn alarm_of(fault: Fault, command: &Command, axes: [u8; 2], tool: f64) -> Alarm 
         Fault::Reversed(way) => (Condition::CompensatedPathReversed, [way, tool, 0.0]),
         Fault::Open(gap) => (Condition::CompensatedCircleOpen, [gap, tool, 0.0]),
         Fault::Apart => (Condition::CompensatedPathsApart, [tool, 0.0, 0.0]),
-        Fault::LaterCut(depth) => (Condition::LaterPathCut, [depth, tool, 0.0]),
+        Fault::Cut(depth) => (Condition::ElementCut, [depth, tool, 0.0]),
     };
     let spans = axes.map(|axis| command.axis_span(usize::from(axis)));
     let span = spans.into_iter().find(|span| *span != command.place.block).unwrap_or(command.place.block);

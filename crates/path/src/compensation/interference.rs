@@ -23,8 +23,8 @@ pub(crate) enum Fault {
     Open(f64),
     /// The paths beside this element and the one before do not meet.
     Apart,
-    /// The tool would cut an element that comes later by this much.
-    LaterCut(f64),
+    /// Beside an element near it the tool would cut into this one by this much.
+    Cut(f64),
 }
 
 /// Judges the path beside an element from one vector to another, for a tool beside it by `s` at its start and end.

@@ -1,0 +1,76 @@
+//! Whether the tool, beside one element, cuts into another: the one before, the next one, or the one behind that.
+//! Everything is counted from the end of the element being run.
+
+use super::edge::Edge;
+use super::vector::{NONE, Vector, add, cross, less, times};
+use crate::clearance::Curve;
+
+/// Nearer by less than this, mm, is near enough: rounding made it.
+const CUT_MM: f64 = 1e-6;
+
+/// Elements in their order, the one being run among them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Neighbours<'n> {
+    pub before: Option<&'n Edge>,
+    pub now: &'n Edge,
+    pub next: Option<&'n Edge>,
+    pub after: Option<&'n Edge>,
+}
+
+/// By how much the path beside the element being run, from one vector to the other, cuts into the element behind the
+/// next one, into the next one and into the one before it, mm; the first that it cuts.
+pub(crate) fn cut(near: &Neighbours, vectors: [Vector; 2], s: f64) -> Option<(Cut, f64)> {
+    let Neighbours { before, now, next, after } = *near;
+    let bends = |edge: &Edge| edge.is_arc();
+    let path = || ending(now, NONE, vectors);
+    let depth = |other: Curve| Some(s.abs() - path().distance(&other)).filter(|depth| *depth > CUT_MM);
+    if let Some(next) = next {
+        let any = bends(now) || bends(next);
+        // Beside a line the corner has seen to the next line.
+        if let Some(depth) = any.then(|| depth(beginning(next, NONE))).flatten() {
+            return Some((Cut::Next, depth));
+        }
+        if let Some(after) = after {
+            // Three lines come back to the first only by turning to the tool's side by more than half a turn.
+            let side = |from: Vector, to: Vector| cross(from, to) * s;
+            let wraps = side(now.tangent[1], next.tangent[0]) > 0.0
+                && side(next.tangent[1], after.tangent[0]) > 0.0
+                && side(now.tangent[1], after.tangent[0]) <= 0.0;
+            if let Some(depth) = (any || bends(after) || wraps).then(|| depth(beginning(after, way(next)))).flatten() {
+                return Some((Cut::After, depth));
+            }
+        }
+    }
+    let before = before.filter(|before| bends(now) || bends(before))?;
+    depth(ending(before, times(way(now), -1.0), [NONE; 2])).map(|depth| (Cut::Before, depth))
+}
+
+/// Which element is cut.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Cut {
+    Before,
+    Next,
+    After,
+}
+
+/// From an element's start to its end.
+fn way(edge: &Edge) -> Vector {
+    if edge.is_arc() { less(edge.spoke(1), edge.spoke(0)) } else { times(edge.tangent[0], edge.length) }
+}
+
+/// An element that ends at a point, or the path beside it by two vectors.
+fn ending(edge: &Edge, end: Vector, [first, last]: [Vector; 2]) -> Curve {
+    if !edge.is_arc() {
+        return Curve::Line([add(less(end, way(edge)), first), add(end, last)]);
+    }
+    let sweep = if first == NONE && last == NONE { edge.sweep } else { edge.sweep_beside([first, last]) };
+    Curve::Arc { center: less(end, edge.spoke(1)), spoke: add(edge.spoke(0), first), sweep }
+}
+
+/// An element that begins at a point.
+fn beginning(edge: &Edge, start: Vector) -> Curve {
+    if !edge.is_arc() {
+        return Curve::Line([start, add(start, way(edge))]);
+    }
+    Curve::Arc { center: less(start, edge.spoke(0)), spoke: edge.spoke(0), sweep: edge.sweep }
+}
