@@ -130,13 +130,14 @@ impl Control {
 /// A number in counts: with a point `unit` each, rounded to the increment; without one `increment` each.
 fn counts(number: Decimal, increment: i64, unit: i64, range: [f64; 2]) -> Result<i64, Refused> {
     let increments = if number.point {
-        match unit / increment {
-            // The usual case first: thousandths of a mm or degree.
-            1000 => number.scaled(3),
-            10_000 => number.scaled(4),
-            per_unit => {
-                number.scaled(9).map(|value| round_half_away(i128::from(value) * i128::from(per_unit), 1_000_000_000))
-            }
+        // The usual case first: thousandths of a mm or degree. A division would cost more than the rest.
+        if unit == increment * 1000 {
+            number.scaled(3)
+        } else if unit == increment * 10_000 {
+            number.scaled(4)
+        } else {
+            let per_unit = i128::from(unit / increment);
+            number.scaled(9).map(|value| round_half_away(i128::from(value) * per_unit, 1_000_000_000))
         }
     } else {
         number.integer()

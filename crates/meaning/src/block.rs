@@ -94,12 +94,7 @@ pub(crate) fn read_meaning(
     command: &mut Command,
 ) -> Result<Flow, Refusal> {
     let (word_count, cut) = cut_by_block_delete(block, setting.switches.block_delete);
-    let mut words = Words::new(block, command.place, word_count, setting.record.as_ref());
-    // The multiplier counts in program text and in a macro call's arguments, not inside a macro's body.
-    words.coarse = if setting.fitting.options.input_x10 && calls.macro_level() == 0 { 10 } else { 1 };
-    words.whole_units = setting.whole_units();
-    check_faults(setting, &words, block, cut)?;
-    check_skips(setting, &words, block)?;
+    let words = Words::new(block, command.place, setting.record.as_ref());
     let control = setting.control.as_ref();
     let mut reading = Reading {
         setting,
@@ -126,6 +121,13 @@ pub(crate) fn read_meaning(
         not_axes: 0,
         now_known: AxisSet::NONE,
     };
+    let words = &mut reading.words;
+    words.take(word_count);
+    // The multiplier counts in program text and in a macro call's arguments, not inside a macro's body.
+    words.coarse = if setting.fitting.options.input_x10 && calls.macro_level() == 0 { 10 } else { 1 };
+    words.whole_units = setting.whole_units();
+    check_faults(setting, words, block, cut)?;
+    check_skips(setting, words, block)?;
     reading.check_letters()?;
     reading.take_g_codes()?;
     let roles = control.roles;
@@ -263,8 +265,10 @@ impl Reading<'_> {
 
     /// F, H, D; of O and N only the range matters here.
     fn take_values(&mut self) -> Result<(), Alarm> {
-        for letter in [b'O', b'N'] {
-            self.words.integer(self.control(), letter)?;
+        if self.words.has_any(letter_bit(b'O') | letter_bit(b'N')) {
+            for letter in [b'O', b'N'] {
+                self.words.integer(self.control(), letter)?;
+            }
         }
         if !self.words.has_any(letter_bit(b'F') | letter_bit(b'H') | letter_bit(b'D')) {
             return Ok(());

@@ -1,12 +1,13 @@
 //! A command to its operations, one at a time: codes, motion piece by piece, codes after motion, the close.
 
 use base::{AXES, AxisSet, Point};
+use dialect::M01OffOutput;
 
 use crate::centring::Centring;
 use crate::command::{Body, Command, Finish, TipMove};
 use crate::cycle::{Cursor, Holes, Spindle, Step, begins_at_r, next_step};
 use crate::operation::{Act, ArcMove, Close, CodeLine, CodeOut, Dwell, Feed, Operation, RapidKind, StopKind};
-use crate::setting::to_mm;
+use crate::setting::{Setting, to_mm};
 
 /// Which part of the block is next.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -35,18 +36,6 @@ pub(crate) struct Expansion {
     start: f64,
     /// The signal did not come.
     missed: bool,
-}
-
-/// What decides at execution, not when a block is read.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Surroundings {
-    pub axes: usize,
-    pub optional_stop: bool,
-    /// M01 goes out though its switch is off.
-    pub sends_m01: bool,
-    /// M codes of cycles: spindle forward, reverse, stop, orient.
-    pub spindle_codes: [u32; 4],
-    pub m_digits: u8,
 }
 
 impl Expansion {
@@ -94,33 +83,44 @@ impl Expansion {
     }
 
     /// Writes the next operation of the command to `out`; false when the block is done.
-    pub fn next(&mut self, command: &Command, around: &Surroundings, out: &mut Operation) -> bool {
+    pub fn next(&mut self, command: &Command, setting: &Setting, out: &mut Operation) -> bool {
         out.stop_point = false;
         out.until_signal = false;
-        out.act = loop {
+        loop {
             match self.part {
-                Part::CodesBefore => match self.next_code(command, false, around) {
-                    Some(code) => break Act::Code(code),
+                Part::CodesBefore => match self.next_code(command, false, setting) {
+                    Some(code) => {
+                        out.act = Act::Code(code);
+                        break;
+                    }
                     None => self.part = Part::Body,
                 },
-                Part::Body => match self.next_piece(command, around, out) {
-                    Some(act) => break act,
-                    None => {
-                        self.part = Part::CodesAfter;
-                        self.index = 0;
+                Part::Body => {
+                    if self.next_move(command, out) {
+                        break;
                     }
-                },
-                Part::CodesAfter => match self.next_code(command, true, around) {
-                    Some(code) => break Act::Code(code),
+                    if let Some(act) = self.next_piece(command, setting, out) {
+                        out.act = act;
+                        break;
+                    }
+                    self.part = Part::CodesAfter;
+                    self.index = 0;
+                }
+                Part::CodesAfter => match self.next_code(command, true, setting) {
+                    Some(code) => {
+                        out.act = Act::Code(code);
+                        break;
+                    }
                     None => self.part = Part::Close,
                 },
                 Part::Close => {
                     self.part = Part::Done;
-                    break Act::Close(close(command.finish, around.optional_stop));
+                    out.act = Act::Close(close(command.finish, setting.switches.optional_stop));
+                    break;
                 }
                 Part::Done => return false,
             }
-        };
+        }
         out.block = command.block;
         out.place = command.place;
         out.compensated = command.offset.is_some();
@@ -129,12 +129,12 @@ impl Expansion {
         true
     }
 
-    fn next_code(&mut self, command: &Command, after: bool, around: &Surroundings) -> Option<CodeOut> {
+    fn next_code(&mut self, command: &Command, after: bool, setting: &Setting) -> Option<CodeOut> {
         while self.index < command.code_count {
             let index = self.index;
             self.index += 1;
             let code = command.codes[usize::from(index)];
-            let disregarded = command.optional_code == Some(index) && !around.optional_stop && !around.sends_m01;
+            let disregarded = command.optional_code == Some(index) && !passes_m01(setting);
             if code.after_motion == after && !disregarded {
                 return Some(code);
             }
@@ -142,24 +142,36 @@ impl Expansion {
         None
     }
 
-    fn next_piece(&mut self, command: &Command, around: &Surroundings, out: &mut Operation) -> Option<Act> {
-        let mm = |counts: &Point| to_mm(counts, around.axes);
+    /// The usual case first: a single line or rapid, written where it goes to without a copy.
+    #[inline]
+    fn next_move(&mut self, command: &Command, out: &mut Operation) -> bool {
+        if self.phase > 0 {
+            return false;
+        }
         match &command.body {
-            Body::Holes(holes) => return self.next_in_hole(holes, around, &mut out.stop_point),
-            Body::Skip { .. } => return self.next_in_skip(command, around, out),
-            Body::Tip(tip) => return self.next_of_tip(tip, command, around),
-            Body::Centring(centring) => return self.next_in_centring(centring, around, out),
+            Body::Line { to, feed } => out.act = Act::Line { to: to_mm(to), feed: *feed },
+            Body::Rapid { to, kind } => out.act = Act::Rapid { to: to_mm(to), kind: *kind },
+            _ => return false,
+        }
+        self.phase = 1;
+        true
+    }
+
+    fn next_piece(&mut self, command: &Command, setting: &Setting, out: &mut Operation) -> Option<Act> {
+        match &command.body {
+            Body::Holes(holes) => return self.next_in_hole(holes, setting, &mut out.stop_point),
+            Body::Skip { .. } => return self.next_in_skip(command, out),
+            Body::Tip(tip) => return self.next_of_tip(tip, command),
+            Body::Centring(centring) => return self.next_in_centring(centring, out),
             _ => {}
         }
         let phase = self.phase;
         self.phase += 1;
         match (&command.body, phase) {
-            (Body::Rapid { to, kind }, 0) => Some(Act::Rapid { to: mm(to), kind: *kind }),
-            (Body::Line { to, feed }, 0) => Some(Act::Line { to: mm(to), feed: *feed }),
-            (Body::Arc { foot: Some(_), .. }, _) => closed_arc(&command.body, phase, around),
+            (Body::Arc { foot: Some(_), .. }, _) => closed_arc(&command.body, phase),
             (Body::Arc { to, center, axes, plane, clockwise, full_circle, feed, .. }, 0) => Some(Act::Arc {
                 arc: ArcMove {
-                    to: mm(to),
+                    to: to_mm(to),
                     plane: *plane,
                     axes: *axes,
                     center: [center[0] / 1e6, center[1] / 1e6],
@@ -168,14 +180,14 @@ impl Expansion {
                 },
                 feed: *feed,
             }),
-            (Body::Checked { to, .. }, 0) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),
+            (Body::Checked { to, .. }, 0) => Some(Act::Rapid { to: to_mm(to), kind: RapidKind::Checked }),
             (Body::Checked { alarm: Some(alarm), .. }, 1) => Some(Act::Alarm(*alarm)),
             (Body::Circle(cut), phase) => cut.piece(phase),
             (Body::Via { via, stops, .. }, 0) => {
                 out.stop_point = *stops;
-                Some(Act::Rapid { to: mm(via), kind: RapidKind::Checked })
+                Some(Act::Rapid { to: to_mm(via), kind: RapidKind::Checked })
             }
-            (Body::Via { to, .. }, 1) => Some(Act::Rapid { to: mm(to), kind: RapidKind::Checked }),
+            (Body::Via { to, .. }, 1) => Some(Act::Rapid { to: to_mm(to), kind: RapidKind::Checked }),
             (Body::Dwell(dwell), 0) => Some(Act::Dwell(*dwell)),
             (Body::Set(value, _), 0) => Some(Act::Set(*value)),
             (Body::Set(_, Some(value)), 1) => Some(Act::Set(*value)),
@@ -188,18 +200,17 @@ impl Expansion {
     /// The next part of a way of the tool's tip: where it would stand upright, straight on, and the machine with it.
     #[cold]
     #[inline(never)]
-    fn next_of_tip(&mut self, tip: &TipMove, command: &Command, around: &Surroundings) -> Option<Act> {
+    fn next_of_tip(&mut self, tip: &TipMove, command: &Command) -> Option<Act> {
         if self.hole >= tip.parts {
             return None;
         }
         self.hole += 1;
         if self.hole == tip.parts {
-            return Some(Act::Line { to: to_mm(&tip.machine, around.axes), feed: tip.feed });
+            return Some(Act::Line { to: to_mm(&tip.machine), feed: tip.feed });
         }
         let part = f64::from(self.hole) / f64::from(tip.parts);
-        let mm = |counts: &Point| to_mm(counts, around.axes);
-        let from = tip.kinematics.upright(&mm(&command.from), tip.lengths[0]);
-        let to = mm(&tip.upright);
+        let from = tip.kinematics.upright(&to_mm(&command.from), tip.lengths[0]);
+        let to = to_mm(&tip.upright);
         let between: Point = std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * part);
         let length = tip.lengths[0] + (tip.lengths[1] - tip.lengths[0]) * part;
         let feed = Feed { exact_stop: false, ..tip.feed };
@@ -209,14 +220,14 @@ impl Expansion {
     /// A line until the skip signal, and the alarm where it did not come.
     #[cold]
     #[inline(never)]
-    fn next_in_skip(&mut self, command: &Command, around: &Surroundings, out: &mut Operation) -> Option<Act> {
+    fn next_in_skip(&mut self, command: &Command, out: &mut Operation) -> Option<Act> {
         let Body::Skip { to, feed, missed } = &command.body else { return None };
         self.phase += 1;
         match (self.phase, missed) {
             (1, _) => {
                 self.target = *to;
                 out.until_signal = true;
-                Some(Act::Line { to: to_mm(to, around.axes), feed: *feed })
+                Some(Act::Line { to: to_mm(to), feed: *feed })
             }
             (2, Some(alarm)) if self.missed => Some(Act::Alarm(*alarm)),
             _ => None,
@@ -226,7 +237,7 @@ impl Expansion {
     /// Three phases an axis: to one side, to the other, to the middle.
     #[cold]
     #[inline(never)]
-    fn next_in_centring(&mut self, centring: &Centring, around: &Surroundings, out: &mut Operation) -> Option<Act> {
+    fn next_in_centring(&mut self, centring: &Centring, out: &mut Operation) -> Option<Act> {
         let phase = self.phase;
         let &(axis, distance) = centring.along.iter().flatten().nth(usize::from(phase) / 3)?;
         let axis = usize::from(axis);
@@ -244,17 +255,17 @@ impl Expansion {
             1 => self.start - distance,
             _ => {
                 self.position[axis] = (self.hits[0] + self.hits[1]) / 2.0;
-                return Some(self.rapid(RapidKind::Checked, around));
+                return Some(self.rapid(RapidKind::Checked));
             }
         };
         self.target = self.position;
         self.target[axis] = to;
         out.until_signal = true;
-        Some(Act::Line { to: to_mm(&self.target, around.axes), feed: centring.feed })
+        Some(Act::Line { to: to_mm(&self.target), feed: centring.feed })
     }
 
     /// Phases of a hole: 0 the approach from one side, 1 the position, 2 the R level, 3 the cycle's own steps.
-    fn next_in_hole(&mut self, holes: &Holes, around: &Surroundings, stop_point: &mut bool) -> Option<Act> {
+    fn next_in_hole(&mut self, holes: &Holes, setting: &Setting, stop_point: &mut bool) -> Option<Act> {
         let count = holes.places.count();
         while self.hole < count {
             let phase = self.phase;
@@ -264,18 +275,18 @@ impl Expansion {
                 (0 | 1, _) => {
                     // A place without a hole ends the block if it is the last.
                     *stop_point = phase == 1 && (holes.cycle.is_some() || self.hole + 1 < count);
-                    self.place_move(phase == 0, holes, around)
+                    self.place_move(phase == 0, holes)
                 }
                 (2, Some(cycle)) if begins_at_r(cycle) => {
                     self.position[usize::from(holes.axis)] = holes.r;
                     *stop_point = true;
-                    Some(self.rapid(holes.rapid, around))
+                    Some(self.rapid(holes.rapid))
                 }
                 (2, Some(_)) => None,
                 (_, cycle) => {
                     let step = if cycle.is_some() { next_step(holes, &mut self.cursor) } else { Step::Done };
                     if step != Step::Done {
-                        self.step(step, holes, around)
+                        self.step(step, holes, setting)
                     } else {
                         self.hole += 1;
                         self.phase = 0;
@@ -294,7 +305,7 @@ impl Expansion {
     }
 
     /// The move to the hole's place, or before it to where the approach from one side begins.
-    fn place_move(&mut self, approaching: bool, holes: &Holes, around: &Surroundings) -> Option<Act> {
+    fn place_move(&mut self, approaching: bool, holes: &Holes) -> Option<Act> {
         let axis = usize::from(holes.axis);
         let mut place = holes.places.at(self.hole);
         if holes.cycle.is_some() {
@@ -304,42 +315,42 @@ impl Expansion {
             place = approach(&self.position, &place, &holes.approach)?;
         }
         self.position = place;
-        Some(self.rapid(holes.rapid, around))
+        Some(self.rapid(holes.rapid))
     }
 
-    fn rapid(&self, kind: RapidKind, around: &Surroundings) -> Act {
-        Act::Rapid { to: to_mm(&self.position, around.axes), kind }
+    fn rapid(&self, kind: RapidKind) -> Act {
+        Act::Rapid { to: to_mm(&self.position), kind }
     }
 
-    fn step(&mut self, step: Step, holes: &Holes, around: &Surroundings) -> Option<Act> {
+    fn step(&mut self, step: Step, holes: &Holes, setting: &Setting) -> Option<Act> {
         let axis = usize::from(holes.axis);
         match step {
             Step::Rapid(level) => {
                 self.position[axis] = level;
-                Some(self.rapid(holes.rapid, around))
+                Some(self.rapid(holes.rapid))
             }
             Step::Feed(level) | Step::Tap(level) => {
                 self.position[axis] = level;
                 let feed = Feed { tapping: matches!(step, Step::Tap(_)), ..holes.feed };
-                Some(Act::Line { to: to_mm(&self.position, around.axes), feed })
+                Some(Act::Line { to: to_mm(&self.position), feed })
             }
             Step::Dwell(seconds) => (seconds > 0.0).then_some(Act::Dwell(Dwell::Seconds(seconds))),
-            Step::Spindle(spindle) => Some(spindle_code(spindle, around)),
+            Step::Spindle(spindle) => Some(spindle_code(spindle, setting)),
             Step::Start if self.hole > 0 => None,
-            Step::Start => holes.start.map(|spindle| spindle_code(spindle, around)),
-            Step::Restart => holes.restart.map(|spindle| spindle_code(spindle, around)),
+            Step::Start => holes.start.map(|spindle| spindle_code(spindle, setting)),
+            Step::Restart => holes.restart.map(|spindle| spindle_code(spindle, setting)),
             Step::Aside => {
                 for (axis, shift) in holes.shift_axes.into_iter().zip(holes.shift) {
                     self.position[usize::from(axis)] += shift;
                 }
-                Some(self.rapid(holes.rapid, around))
+                Some(self.rapid(holes.rapid))
             }
             Step::Back => {
                 let place = holes.places.at(self.hole);
                 for axis in holes.shift_axes.map(usize::from) {
                     self.position[axis] = place[axis];
                 }
-                Some(self.rapid(holes.rapid, around))
+                Some(self.rapid(holes.rapid))
             }
             Step::ByHand => holes.by_hand.then_some(Act::Await(Some(StopKind::Cycle))),
             Step::Done => None,
@@ -350,7 +361,7 @@ impl Expansion {
 /// An arc and the straight piece from its end to where the block ends.
 #[cold]
 #[inline(never)]
-fn closed_arc(body: &Body, phase: u8, around: &Surroundings) -> Option<Act> {
+fn closed_arc(body: &Body, phase: u8) -> Option<Act> {
     let Body::Arc { to, center, axes, plane, clockwise, foot: Some(foot), feed, .. } = body else { return None };
     match phase {
         0 => {
@@ -359,7 +370,7 @@ fn closed_arc(body: &Body, phase: u8, around: &Surroundings) -> Option<Act> {
                 end[usize::from(*axis)] = *at;
             }
             let arc = ArcMove {
-                to: to_mm(&end, around.axes),
+                to: to_mm(&end),
                 plane: *plane,
                 axes: *axes,
                 center: center.map(|counts| counts / 1e6),
@@ -368,14 +379,14 @@ fn closed_arc(body: &Body, phase: u8, around: &Surroundings) -> Option<Act> {
             };
             Some(Act::Arc { arc, feed: Feed { exact_stop: false, ..*feed } })
         }
-        1 => Some(Act::Line { to: to_mm(to, around.axes), feed: *feed }),
+        1 => Some(Act::Line { to: to_mm(to), feed: *feed }),
         _ => None,
     }
 }
 
-fn spindle_code(spindle: Spindle, around: &Surroundings) -> Act {
-    let code = around.spindle_codes[spindle as usize];
-    Act::Code(CodeOut { line: CodeLine::M, code, digits: around.m_digits, after_motion: true })
+fn spindle_code(spindle: Spindle, setting: &Setting) -> Act {
+    let code = setting.control.cycle_codes[spindle as usize];
+    Act::Code(CodeOut { line: CodeLine::M, code, digits: setting.facts.codes.digits[0], after_motion: true })
 }
 
 /// Where a move from one side goes first, if any of its axes has such a side.
@@ -389,6 +400,11 @@ fn approach(from: &Point, to: &Point, distances: &Point) -> Option<Point> {
         }
     }
     (!moving.is_empty()).then_some(via)
+}
+
+/// Whether the code of M01 goes out: its switch is looked at when the block is executed.
+fn passes_m01(setting: &Setting) -> bool {
+    setting.switches.optional_stop || setting.fitting.policies.m01_off_output == M01OffOutput::Code
 }
 
 fn close(finish: Finish, optional_stop: bool) -> Close {

@@ -168,7 +168,9 @@ impl Reader {
                 }
             }
             let Some(&(mut frame)) = self.calls.top() else { return Read::Ended };
-            frame.cursor = self.supply.begin(frame.source, frame.cursor);
+            if frame.cursor.offset == 0 {
+                frame.cursor = self.supply.begin(frame.source, frame.cursor);
+            }
             if let Some(head) = self.asks_again.take() {
                 return self.ask_again(head, &frame, command);
             }
@@ -231,7 +233,8 @@ impl Reader {
                 if let Some(record) = &self.setting.record {
                     self.records.keep(command.block, record.borrow().clone());
                 }
-                return read;
+                // The usual answer is written anew: a copy of what has just been written waits for it.
+                return if matches!(read, Read::Command) { Read::Command } else { read };
             }
         }
     }
@@ -330,9 +333,9 @@ impl Reader {
             if !frame.begun {
                 frame.first = self.block.start.offset;
             }
-            frame.cursor = next;
-            frame.begun = true;
-            command.frame = *frame;
+            // Copied before it is written to: a copy of what has just been written waits for it.
+            command.frame = Frame { cursor: next, begun: true, ..*frame };
+            (frame.cursor, frame.begun) = (next, true);
         }
         command.here = self.block.start;
         command.called = self.calls.frames.len() > 1;

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use base::{AXES, Point};
+use base::Point;
 use dialect::{Control, Fitting};
 
 use crate::facts::{MachineFacts, Memory, Switches};
@@ -38,7 +38,7 @@ pub(crate) fn transform_groups(control: &Control) -> u32 {
 impl Setting {
     /// Counts to mm and degrees.
     pub fn to_mm(&self, counts: &Point) -> Point {
-        to_mm(counts, self.facts.axes.len())
+        to_mm(counts)
     }
 
     /// True if a number without a point is the value itself, by the parameter that the control has for it.
@@ -54,11 +54,7 @@ impl Setting {
     }
 }
 
-/// Counts to mm and degrees on the first `axes` axes.
-pub(crate) fn to_mm(counts: &Point, axes: usize) -> Point {
-    let mut mm = [0.0; AXES];
-    for axis in 0..axes.min(AXES) {
-        mm[axis] = counts[axis] / 1e6;
-    }
-    mm
+/// Counts to mm and degrees.
+pub(crate) fn to_mm(counts: &Point) -> Point {
+    counts.map(|counts| counts / 1e6)
 }

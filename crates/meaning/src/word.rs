@@ -40,21 +40,25 @@ pub(crate) struct Words<'b> {
 }
 
 impl<'b> Words<'b> {
-    /// The words of a block, `words` of them (a block-delete sign may cut the rest off).
-    pub fn new(block: &'b Block, place: Place, words: usize, record: Option<&'b RefCell<WordsRead>>) -> Words<'b> {
+    /// No words of a block yet.
+    pub fn new(block: &'b Block, place: Place, record: Option<&'b RefCell<WordsRead>>) -> Words<'b> {
         if let Some(record) = record {
             record.borrow_mut().clear();
         }
-        let mut by_letter = [NO_WORD; 26];
-        let mut present = 0;
-        for (index, word) in block.words.iter().take(words.min(usize::from(NO_WORD))).enumerate() {
-            by_letter[usize::from(word.letter - b'A') % 26] = index as u8;
-            present |= crate::unknown::letter_bit(word.letter);
+        Words { block, place, coarse: 1, whole_units: false, record, by_letter: [NO_WORD; 26], present: 0 }
+    }
+
+    /// Takes the block's words in, so many of them (a block-delete sign may cut the rest off).
+    #[inline]
+    pub fn take(&mut self, words: usize) {
+        for (index, word) in self.block.words.iter().take(words.min(usize::from(NO_WORD))).enumerate() {
+            self.by_letter[usize::from(word.letter - b'A') % 26] = index as u8;
+            self.present |= crate::unknown::letter_bit(word.letter);
         }
-        Words { block, place, coarse: 1, whole_units: false, record, by_letter, present }
     }
 
     /// Notes what a word was read as, where that is recorded; the value is in mm, degrees, seconds or a plain number.
+    #[inline]
     pub fn note(&self, letter: u8, read: ReadAs, value: f64) {
         if let Some(record) = self.record {
             record.borrow_mut().note(letter, read, value);
@@ -114,7 +118,9 @@ impl<'b> Words<'b> {
             None => Ok(None),
             Some(word) => {
                 let number = self.value(word)?;
-                self.note(letter, ReadAs::Number, number.to_f64());
+                if self.record.is_some() {
+                    self.note(letter, ReadAs::Number, number.to_f64());
+                }
                 Ok(Some(number))
             }
         }

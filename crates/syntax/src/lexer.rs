@@ -4,7 +4,7 @@ use base::Condition;
 
 use crate::block::{Block, Cursor, Extent, Fault, Skip, Statement, Value, Word};
 use crate::grammar::{BlockDelete, Colon, Grammar, LowerCase, Percent, Semicolon};
-use crate::number::{is_blank, scan_number};
+use crate::number::{is_blank, plain_number, scan_number};
 use crate::statement::{expression_len, statement_at};
 
 /// The longest run of characters that is looked at as one block; far above any control's own limit.
@@ -204,6 +204,18 @@ impl Lexer<'_> {
         {
             return whole;
         }
+        let from = self.at;
+        if let Some((number, len)) = plain_number(&self.text[from + 1..]) {
+            let extent = self.extent(from, 1 + len);
+            self.block.words.push(Word { letter, extent, value: Value::Number(number) });
+            self.at = from + 1 + len;
+            return true;
+        }
+        self.other_word(letter)
+    }
+
+    /// A letter and what is not simply a number. False if the window ends first.
+    fn other_word(&mut self, letter: u8) -> bool {
         let from = self.at;
         let scan = scan_number(&self.text[from + 1..]);
         if scan.open && !self.last {

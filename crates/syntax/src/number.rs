@@ -22,6 +22,32 @@ pub(crate) const fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | 0)
 }
 
+/// The usual number at the head of `text`, and its length: no blank inside it, nothing wrong with it, and a character
+/// behind it that ends it. `None` leaves it to [`scan_number`].
+#[inline]
+pub(crate) fn plain_number(text: &[u8]) -> Option<(Decimal, usize)> {
+    let negative = text.first() == Some(&b'-');
+    let from = usize::from(negative);
+    let (mut at, mut mantissa, mut point) = (from, 0u64, None);
+    loop {
+        match *text.get(at)? {
+            digit @ b'0'..=b'9' => mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit - b'0')),
+            b'.' if point.is_none() => point = Some(at),
+            b'.' | b'+' | b'-' => return None,
+            blank if is_blank(blank) && !text.get(at + 1)?.is_ascii_uppercase() => return None,
+            _ => break,
+        }
+        at += 1;
+    }
+    let decimals = point.map_or(0, |point| at - point - 1);
+    let digits = at - from - decimals - usize::from(point.is_some());
+    if !(1..=usize::from(MOST_DIGITS)).contains(&(digits + decimals)) || decimals > usize::from(MOST_DECIMALS) {
+        return None;
+    }
+    let (decimals, digits) = (decimals as u8, digits as u8);
+    Some((Decimal { mantissa, decimals, digits, point: point.is_some(), negative }, at))
+}
+
 /// Reads sign, digits and point from the head of `text`.
 pub(crate) fn scan_number(text: &[u8]) -> Scan {
     let mut number = Decimal::default();
@@ -105,6 +131,30 @@ mod tests {
         assert_eq!(long.decimals, MOST_DECIMALS);
         assert_eq!(scan_number(b"1234567890123456789").fault, Some((Condition::NumberTooLong, 18)));
         assert_eq!(number("0000000000000000000000001").mantissa, 1);
+    }
+
+    #[test]
+    fn the_usual_numbers_are_read_alike_in_both_ways() {
+        let mut plain = 0;
+        for sign in ["", "-", "+"] {
+            for digits in
+                ["", "0", "7", "012", "1.", ".5", "-1", "1.25.", ".", "1 2", "0.1234567890123", "12345678901234.5"]
+            {
+                for end in ["Y", "\n", " Y1", " 1", ";", "", " ", "0000000000Y", "-", "(a)"] {
+                    let text = format!("{sign}{digits}{end}");
+                    let scan = scan_number(text.as_bytes());
+                    if let Some((number, len)) = plain_number(text.as_bytes()) {
+                        plain += 1;
+                        assert_eq!(
+                            (Some(number), len, None, false),
+                            (scan.number, scan.len, scan.fault, scan.open),
+                            "{text}"
+                        );
+                    }
+                }
+            }
+        }
+        assert!(plain > 60, "{plain}");
     }
 
     #[test]

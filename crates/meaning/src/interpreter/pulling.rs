@@ -1,11 +1,10 @@
 //! Pulling: operations out of the block at the queue's front, blocks into the queue behind it.
 
 use base::Place;
-use dialect::M01OffOutput;
 
 use super::Interpreter;
 use crate::command::{Body, Command, Finish};
-use crate::expand::{Expansion, Surroundings};
+use crate::expand::Expansion;
 use crate::operation::{Act, Close, EndKind, Operation};
 use crate::pull::{Barrier, BarrierKind, Pull};
 use crate::reader::{Read, empty_command};
@@ -69,10 +68,9 @@ impl Interpreter {
 
     /// Makes the next operation of the block being executed; the block leaves the queue when it is done.
     fn next_of_front(&mut self) -> Option<Front> {
-        let around = self.surroundings();
         let expansion = self.expansion.as_mut()?;
         let command = self.queue.front()?;
-        if !expansion.next(command, &around, &mut self.operation) {
+        if !expansion.next(command, &self.reader.setting, &mut self.operation) {
             self.expansion = None;
             self.queue.pop();
             self.reader.ahead = 0;
@@ -99,17 +97,6 @@ impl Interpreter {
         // The manual part of a cycle.
         self.waits_for_start |= matches!(self.operation.act, Act::Await(Some(_)));
         Some(Front::Operation)
-    }
-
-    fn surroundings(&self) -> Surroundings {
-        let setting = &self.reader.setting;
-        Surroundings {
-            axes: setting.facts.axes.len(),
-            optional_stop: setting.switches.optional_stop,
-            sends_m01: setting.fitting.policies.m01_off_output == M01OffOutput::Code,
-            spindle_codes: setting.control.cycle_codes,
-            m_digits: setting.facts.codes.digits[0],
-        }
     }
 
     /// Fills the queue to the control's depth: the block to execute and those read ahead of it.
