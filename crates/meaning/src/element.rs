@@ -46,21 +46,25 @@ pub struct Turn {
 
 impl Command {
     /// How the tool runs beside the path of this block, while it does.
+    #[inline]
     pub fn offset(&self) -> Option<Offset> {
         self.offset
     }
 
     /// True if the block goes to places of its own on these axes, whatever the tool's offset was.
+    #[inline]
     pub fn drops_offset(&self, plane: [u8; 2]) -> bool {
         plane.iter().any(|&axis| self.drops_on(axis))
     }
 
     /// True if it goes to a place of its own on this axis.
+    #[inline]
     pub fn drops_on(&self, axis: u8) -> bool {
         self.drops.has(usize::from(axis))
     }
 
     /// The way of the block in a plane; `part` 1 is the straight piece behind an arc that has one.
+    #[inline]
     pub fn element(&self, plane: [u8; 2], part: u8) -> Option<Element> {
         let at = |point: &base::Point| plane.map(|axis| point.get(usize::from(axis)).copied().unwrap_or(0.0));
         let from = at(&self.from);
@@ -82,6 +86,7 @@ impl Command {
     }
 
     /// Into how many parts the way of the block falls.
+    #[inline]
     pub fn parts(&self) -> u8 {
         if matches!(self.body, Body::Arc { foot: Some(_), .. }) { 2 } else { 1 }
     }

@@ -5,7 +5,7 @@ use base::{AXES, Point};
 use dialect::{CompensationCut, CompensationRestart, CompensationRules, CompensationStart};
 use meaning::{Act, ArcMove, Element, Feed, Offset, Operation};
 
-use crate::compensation::{Beside, Compensation, Edge, Next, Rules};
+use crate::compensation::{Beside, Compensation, Edge, Join, Next, NextKind, Plan, Rules};
 use crate::pieces::{Carried, Pieces};
 use crate::shape::{COUNTS, Shape, Shaped};
 
@@ -45,13 +45,15 @@ pub fn run_chain(chain: &[Link], rules: &ChainRules, mut each: impl FnMut(&Shape
         let Some(edge) = Edge::new(element) else { continue };
         let now = Beside { edge, offset: *offset };
         let (next, at) = next_of(chain, index);
-        let Ok(plan) = compensation.plan(&now, &next, None, &rules) else { return Some(index) };
+        let mut plan = Plan::default();
+        if compensation.plan(&now, &next, None, &rules, &mut plan).is_err() {
+            return Some(index);
+        }
         let after = next_of(chain, at).0;
-        let past = match &next {
-            Next::Element(beside) => Compensation::look_past(&now, &plan, beside, &after, &rules).is_ok(),
-            _ => true,
-        };
-        if !past || compensation.look_about(&now, &plan, (&next, &after), &rules).is_err() {
+        let fits = next.element().is_none_or(|beside| {
+            Compensation::look_past(&now, &plan, beside, &after, &rules, &mut Join::default()).is_ok()
+        });
+        if !fits || compensation.look_about(&now, &plan, (&next, &after), &rules).is_err() {
             return Some(index);
         }
         compensation.take(&now, &plan, &next);
@@ -74,10 +76,14 @@ const FEED: Feed = Feed { mm_per_min: 100.0, exact_stop: false, tapping: false, 
 fn next_of(chain: &[Link], index: usize) -> (Next, usize) {
     for (at, (element, offset)) in chain.iter().enumerate().skip(index + 1) {
         if let Some(edge) = Edge::new(element) {
-            return (offset.map_or(Next::Ends, |offset| Next::Element(Beside { edge, offset })), at);
+            let next = offset.map_or(Next { kind: NextKind::Ends, ..Next::default() }, |offset| Next {
+                kind: NextKind::Element,
+                beside: Beside { edge, offset },
+            });
+            return (next, at);
         }
     }
-    (Next::Unseen, chain.len())
+    (Next::default(), chain.len())
 }
 
 fn point(counts: [f64; 2], offset: &Option<Offset>) -> Point {

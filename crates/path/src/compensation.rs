@@ -33,16 +33,32 @@ pub(crate) struct Beside {
     pub offset: Offset,
 }
 
-/// What the buffer shows behind an element.
+/// What the buffer shows behind an element. Its parts stay in their places: copies of them in motion cost more than the
+/// geometry.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub(crate) enum Next {
+pub(crate) struct Next {
+    pub kind: NextKind,
+    /// The next element, if there is one.
+    pub beside: Beside,
+}
+
+/// What stands behind an element.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) enum NextKind {
     /// Nothing with a way in the plane: it is not read yet, or too many blocks without one stand between.
     #[default]
     Unseen,
     /// A block that runs without the offset.
     Ends,
     /// The next element.
-    Element(Beside),
+    Element,
+}
+
+impl Next {
+    /// The next element.
+    pub fn element(&self) -> Option<&Beside> {
+        (self.kind == NextKind::Element).then_some(&self.beside)
+    }
 }
 
 /// What a control lays down.
@@ -152,21 +168,22 @@ impl Compensation {
         next: &Next,
         known: Option<&Join>,
         rules: &Rules,
-    ) -> Result<Plan, (Which, Fault)> {
+        plan: &mut Plan,
+    ) -> Result<(), (Which, Fault)> {
         let radius = now.offset.radius;
-        let mut plan = Plan { starts: !self.on, ..Plan::default() };
+        (plan.starts, plan.before, plan.sweep) = (!self.on, None, 0.0);
         if plan.starts {
             if now.edge.is_arc() {
                 return Err((Which::This, Fault::StartsByArc));
             }
             plan.after = begin(now, next, rules.start);
         } else {
-            plan.after = match (known, end(now, next)) {
-                (Some(known), _) => *known,
-                (None, Ok(join)) => join,
-                (None, Err(_)) if self.doubtful => Join::at(now.edge.normal(1, radius)),
-                (None, Err(fault)) => return Err((Which::Next, fault)),
-            };
+            match known {
+                Some(known) => plan.after = *known,
+                None if end(now, next, &mut plan.after) => {}
+                None if self.doubtful => plan.after = Join::at(now.edge.normal(1, radius)),
+                None => return Err((Which::Next, Fault::Apart)),
+            }
             plan.before = self.way_round(now, rules.restart);
             let vectors = [plan.before.map_or(self.vector, |before| before.last()), plan.after.first()];
             // A known end has been judged when it was made.
@@ -177,10 +194,10 @@ impl Compensation {
                 plan.sweep = now.edge.sweep_beside(vectors);
             }
         }
-        Ok(plan)
+        Ok(())
     }
 
-    /// The end of the element behind a planned one, which must be fit to run before the planned one moves. `None` if its
+    /// The end of the element behind a planned one, which must be fit to run before the planned one moves. False if its
     /// end cannot be made: that is its own trouble, the planned one can still be run.
     ///
     /// # Errors
@@ -191,11 +208,14 @@ impl Compensation {
         next: &Beside,
         after: &Next,
         rules: &Rules,
-    ) -> Result<Option<Join>, Fault> {
-        let Ok(end) = end(next, after) else { return Ok(None) };
+        end_of_next: &mut Join,
+    ) -> Result<bool, Fault> {
+        if !end(next, after, end_of_next) {
+            return Ok(false);
+        }
         let radii = [now.offset.radius, next.offset.radius];
-        judge(&next.edge, [plan.after.last(), end.first()], radii, &rules.table)?;
-        Ok(Some(end))
+        judge(&next.edge, [plan.after.last(), end_of_next.first()], radii, &rules.table)?;
+        Ok(true)
     }
 
     /// Whether the path beside a planned element cuts into one near it that the buffer shows, or into the one before.
@@ -215,13 +235,10 @@ impl Compensation {
         if rules.cut == CompensationCut::Run || plan.starts || self.stopped || self.doubtful || self.radius != radius {
             return Ok(());
         }
-        let edge_of = |next: &Next| match next {
-            Next::Element(beside) if beside.offset.radius == radius => Some(beside.edge),
-            _ => None,
-        };
+        let edge_of = |next: &'_ Next| next.element().filter(|next| next.offset.radius == radius).map(|next| next.edge);
         // An element that leads away from the contour may be cut, as one that leads to it.
-        let next_edge = edge_of(next).filter(|_| *after != Next::Ends);
-        let (next, after) = (next_edge, edge_of(after));
+        let leads_away = after.kind == NextKind::Ends;
+        let (next, after) = (edge_of(next).filter(|_| !leads_away), edge_of(after));
         let before = Some(&self.last).filter(|_| !self.leads);
         let near = Neighbours { before, now: &now.edge, next: next.as_ref(), after: after.as_ref() };
         let Some((which, depth)) = cut(&near, [self.vector, plan.after.first()], radius) else { return Ok(()) };
@@ -241,7 +258,7 @@ impl Compensation {
         self.radius = now.offset.radius;
         self.doubtful = false;
         self.last = now.edge;
-        self.stopped = matches!(next, Next::Unseen);
+        self.stopped = next.kind == NextKind::Unseen;
         self.leads = plan.starts || self.starts;
         self.starts = plan.starts;
     }
@@ -266,9 +283,9 @@ impl Compensation {
         if !self.stopped || restart != CompensationRestart::Corner {
             return None;
         }
-        let same_side = self.radius == now.offset.radius;
-        let join = corner::join(&self.last, &now.edge, self.radius, now.offset.round_corners).filter(|_| same_side)?;
-        if join.corner != Corner::Outside {
+        let mut join = Join::default();
+        let meet = corner::join(&self.last, &now.edge, self.radius, now.offset.round_corners, &mut join);
+        if !meet || self.radius != now.offset.radius || join.corner != Corner::Outside {
             return None;
         }
         if join.first() == self.vector {
@@ -282,24 +299,28 @@ impl Compensation {
     }
 }
 
-/// The end of an element: where the next one begins, or square to its own end.
-fn end(now: &Beside, next: &Next) -> Result<Join, Fault> {
+/// The end of an element: where the next one begins, or square to its own end. False if there is none.
+fn end(now: &Beside, next: &Next, join: &mut Join) -> bool {
     let Beside { edge, offset } = now;
-    let foot = edge.normal(1, offset.radius);
-    let Next::Element(next) = next else { return Ok(Join::at(foot)) };
-    if offset.radius * next.offset.radius < 0.0 {
-        // Over to the other side: along the next line, or to the arc's foot at once.
-        let other = next.edge.normal(0, next.offset.radius);
-        let arcs = edge.is_arc() || next.edge.is_arc();
-        return Ok(if arcs { Join::through(Corner::None, &[foot, other]) } else { Join::at(foot) });
+    let Some(next) = next.element() else {
+        *join = Join::at(edge.normal(1, offset.radius));
+        return true;
+    };
+    if offset.radius * next.offset.radius >= 0.0 {
+        return corner::join(edge, &next.edge, offset.radius, offset.round_corners, join);
     }
-    corner::join(edge, &next.edge, offset.radius, offset.round_corners).ok_or(Fault::Apart)
+    // Over to the other side: along the next line, or to the arc's foot at once.
+    let foot = edge.normal(1, offset.radius);
+    let other = next.edge.normal(0, next.offset.radius);
+    let arcs = edge.is_arc() || next.edge.is_arc();
+    *join = if arcs { Join::through(Corner::None, &[foot, other]) } else { Join::at(foot) };
+    true
 }
 
 /// The end of the block that begins compensation.
 fn begin(now: &Beside, next: &Next, start: CompensationStart) -> Join {
     let Beside { edge, offset } = now;
-    let Next::Element(next) = next else { return Join::at(edge.normal(1, offset.radius)) };
+    let Some(next) = next.element() else { return Join::at(edge.normal(1, offset.radius)) };
     let square = Join::at(next.edge.normal(0, offset.radius));
     if start == CompensationStart::Square {
         return square;

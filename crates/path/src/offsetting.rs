@@ -4,7 +4,7 @@
 use base::{Alarm, Condition, Point};
 use meaning::{Act, Barrier, Command, Element, Interpreter};
 
-use crate::compensation::{Beside, Compensation, Edge, Fault, Join, Next, Rules, Vector, Which};
+use crate::compensation::{Beside, Compensation, Edge, Fault, Join, Next, NextKind, Plan, Rules, Vector, Which};
 use crate::pieces::{Carried, Pieces};
 use crate::shape::Shaped;
 
@@ -12,15 +12,16 @@ use crate::shape::Shaped;
 const BRIDGED: u8 = 1;
 
 /// What becomes of an operation.
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Taken {
     /// Its first piece has been written.
     Piece,
     /// It has no length.
     Nothing,
-    /// It runs as it is, the plane's axes beside their programmed place by a vector.
-    AsItIs([u8; 2], Vector),
+    /// It runs as it is, beside its programmed place by the tool's vector.
+    AsItIs,
     /// Its block is refused.
-    Refused(Alarm),
+    Refused,
 }
 
 /// The part of the stage that runs beside the path.
@@ -34,7 +35,12 @@ pub(crate) struct Offsetting {
     ahead: Ahead,
     is_known: bool,
     /// The plan being carried out.
+    plan: Plan,
     pieces: Pieces,
+    /// What follows the way behind it, in the making.
+    after: Next,
+    /// The refusal.
+    alarm: Option<Alarm>,
 }
 
 /// A way with what follows it.
@@ -89,9 +95,7 @@ impl Offsetting {
         let operation = upstream.current();
         let is_move = matches!(operation.act, Act::Rapid { .. } | Act::Line { .. } | Act::Arc { .. });
         let block = operation.block;
-        let Some(command) = upstream.executing().filter(|_| is_move) else {
-            return Ok(Taken::AsItIs([0; 2], [0.0; 2]));
-        };
+        let Some(command) = upstream.executing().filter(|_| is_move) else { return Ok(Taken::AsItIs) };
         if self.block != block {
             (self.block, self.part) = (block, 0);
         }
@@ -100,36 +104,38 @@ impl Offsetting {
         let axes = offset.map_or(self.compensation.axes(), |offset| offset.axes);
         if command.drops_offset(axes) {
             self.compensation.drop_on(axes.map(|axis| command.drops_on(axis)));
-            return Ok(self.as_it_is(axes));
+            return Ok(Taken::AsItIs);
         }
-        let Some(element) = command.element(axes, part) else { return Ok(self.as_it_is(axes)) };
+        let Some(element) = command.element(axes, part) else { return Ok(Taken::AsItIs) };
         let Some(offset) = offset else {
             self.compensation.cancel();
-            return Ok(match element.turn {
-                Some(_) => Taken::Refused(alarm_of(Fault::EndsByArc, command, axes, 0.0)),
-                None => Taken::AsItIs(axes, [0.0; 2]),
-            });
+            if element.turn.is_none() {
+                return Ok(Taken::AsItIs);
+            }
+            self.alarm = Some(alarm_of(Fault::EndsByArc, command, axes, 0.0));
+            return Ok(Taken::Refused);
         };
         if !self.is_known || (self.ahead.block, self.ahead.part) != (block, part) {
             self.is_known = false;
-            let Some(edge) = Edge::new(&element) else { return Ok(self.as_it_is(axes)) };
-            (self.ahead.next, self.ahead.at) = look(upstream, At { index: 0, part, block }, axes)?;
+            let Some(edge) = Edge::new(&element) else { return Ok(Taken::AsItIs) };
+            self.ahead.at = look(upstream, At { index: 0, part, block }, axes, &mut self.ahead.next)?;
             self.ahead.way = Beside { edge, offset };
         }
-        let (after, behind) = match self.ahead.next {
-            Next::Element(_) => look(upstream, self.ahead.at, axes)?,
-            _ => (Next::Unseen, self.ahead.at),
-        };
+        let mut behind = self.ahead.at;
+        self.after.kind = NextKind::Unseen;
+        if self.ahead.next.kind == NextKind::Element {
+            behind = look(upstream, behind, axes, &mut self.after)?;
+        }
         self.part += 1;
-        match self.run(upstream, &element, (&after, behind), position, shaped) {
+        match self.run(upstream, &element, behind, position, shaped) {
             Ok(true) => Ok(Taken::Piece),
             Ok(false) => Ok(Taken::Nothing),
             Err((index, fault)) => {
                 let radius = self.ahead.way.offset.radius.abs();
                 self.compensation.pass(&self.ahead.way);
                 self.is_known = false;
-                let command = upstream.look_ahead(index)?;
-                Ok(command.map_or(Taken::Nothing, |command| Taken::Refused(alarm_of(fault, command, axes, radius))))
+                self.alarm = upstream.look_ahead(index)?.map(|command| alarm_of(fault, command, axes, radius));
+                Ok(Taken::Refused)
             }
         }
     }
@@ -142,11 +148,11 @@ impl Offsetting {
         &mut self,
         upstream: &Interpreter,
         element: &Element,
-        (after, behind): (&Next, At),
+        behind: At,
         position: &mut Point,
         shaped: &mut Shaped,
     ) -> Result<bool, (usize, Fault)> {
-        let Offsetting { compensation, ahead, is_known, pieces, .. } = self;
+        let Offsetting { compensation, ahead, is_known, plan, pieces, after, .. } = self;
         let policies = &upstream.fitting().policies;
         let rules = Rules {
             start: policies.compensation_start,
@@ -160,59 +166,73 @@ impl Offsetting {
             Which::Next => (at.index, fault),
             Which::After => (behind.index, fault),
         };
-        let plan = compensation.plan(way, next, is_known.then_some(&*end), &rules).map_err(place)?;
-        compensation.look_about(way, &plan, (next, after), &rules).map_err(place)?;
-        let end_of_next = match next {
-            Next::Element(next) => {
-                Compensation::look_past(way, &plan, next, after, &rules).map_err(|fault| (at.index, fault))?
-            }
-            _ => None,
-        };
+        compensation.plan(way, next, is_known.then_some(&*end), &rules, plan).map_err(place)?;
+        compensation.look_about(way, plan, (next, after), &rules).map_err(place)?;
+        *is_known = false;
+        if let Some(beside) = next.element() {
+            let fits = Compensation::look_past(way, plan, beside, after, &rules, end);
+            *is_known = fits.map_err(|fault| (at.index, fault))? && after.kind != NextKind::Unseen;
+        }
         let certain = !compensation.is_doubtful();
-        compensation.take(way, &plan, next);
+        compensation.take(way, plan, next);
         let from = *position;
-        let carried = Carried { element, edge: &way.edge, offset: &way.offset, plan: &plan, from: &from, certain };
+        let carried = Carried { element, edge: &way.edge, offset: &way.offset, plan, from: &from, certain };
         let has_length = pieces.begin(&carried, upstream.current(), position, shaped);
         // The way behind it is the next one's turn.
-        *is_known = false;
-        if let (Next::Element(beside), Some(end_of_next), true) = (*next, end_of_next, *after != Next::Unseen) {
+        if *is_known {
             (ahead.block, ahead.part) = (at.block, at.part);
             *at = At { index: behind.index - at.index, ..behind };
-            (*way, *end, *next) = (beside, end_of_next, *after);
-            *is_known = true;
+            *way = next.beside;
+            *next = *after;
         }
         Ok(has_length)
     }
 
-    fn as_it_is(&self, axes: [u8; 2]) -> Taken {
-        Taken::AsItIs(axes, self.compensation.vector())
+    /// By which the tool stands beside its programmed place, along two axes.
+    pub fn vector(&self) -> ([u8; 2], Vector) {
+        (self.compensation.axes(), self.compensation.vector())
+    }
+
+    /// The refusal of the operation taken last.
+    pub fn take_alarm(&mut self) -> Option<Alarm> {
+        self.alarm.take()
     }
 }
 
-/// What follows a way in the buffer, and where that stands.
-fn look(upstream: &mut Interpreter, way: At, axes: [u8; 2]) -> Result<(Next, At), Barrier> {
+/// Finds what follows a way in the buffer, and where that stands.
+fn look(upstream: &mut Interpreter, way: At, axes: [u8; 2], next: &mut Next) -> Result<At, Barrier> {
     let mut at = way;
     let mut still = 0;
     let mut parts = upstream.look_ahead(at.index)?.map_or(1, Command::parts);
+    next.kind = NextKind::Unseen;
     loop {
         (at.index, at.part) = if at.part + 1 < parts { (at.index, at.part + 1) } else { (at.index + 1, 0) };
         let Some(command) = upstream.look_ahead(at.index)?.filter(|command| !command.is_refused()) else {
-            return Ok((Next::Unseen, at));
+            return Ok(at);
         };
         at.block = command.block;
         parts = command.parts();
         if command.drops_offset(axes) {
-            return Ok((Next::Ends, at));
+            next.kind = NextKind::Ends;
+            return Ok(at);
         }
         let edge = command.element(axes, at.part).and_then(|element| Edge::new(&element));
         match (edge, command.offset()) {
-            (Some(edge), Some(offset)) => return Ok((Next::Element(Beside { edge, offset }), at)),
-            (Some(_), None) => return Ok((Next::Ends, at)),
+            (Some(edge), Some(offset)) => {
+                next.kind = NextKind::Element;
+                next.beside.edge = edge;
+                next.beside.offset = offset;
+                return Ok(at);
+            }
+            (Some(_), None) => {
+                next.kind = NextKind::Ends;
+                return Ok(at);
+            }
             (None, _) if at.part > 0 => {}
             (None, _) => {
                 still += 1;
                 if still > BRIDGED {
-                    return Ok((Next::Unseen, at));
+                    return Ok(at);
                 }
             }
         }

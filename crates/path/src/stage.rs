@@ -59,25 +59,26 @@ impl Path {
                     Pull::End => return Pull::End,
                 }
             }
-            let (mut beside, mut is_refused) = (None, None);
+            let mut taken = Taken::AsItIs;
             if upstream.current().compensated || offsetting.is_on() {
                 match offsetting.take(upstream, position, shaped) {
                     Ok(Taken::Piece) => return Pull::Item(shaped),
                     Ok(Taken::Nothing) => continue,
-                    Ok(Taken::AsItIs(axes, vector)) => beside = Some((axes, vector)),
-                    Ok(Taken::Refused(alarm)) => is_refused = Some(alarm),
+                    Ok(other) => taken = other,
                     Err(barrier) => {
                         *held = true;
                         return Pull::Barrier(barrier);
                     }
                 }
             }
-            let is_shape = shape(upstream.current(), beside, position, shaped);
-            shaped.certain = !offsetting.is_doubtful();
-            if let Some(alarm) = is_refused {
+            let is_shape = shape(upstream.current(), offsetting, position, shaped);
+            if taken == Taken::Refused
+                && let Some(alarm) = offsetting.take_alarm()
+            {
                 shaped.shape = Shape::Alarm(alarm);
+                return Pull::Item(shaped);
             }
-            if is_shape || is_refused.is_some() {
+            if is_shape {
                 return Pull::Item(shaped);
             }
         }
@@ -90,14 +91,9 @@ impl Path {
 }
 
 /// Writes the operation's shape; false for a move of no length.
-fn shape(
-    operation: &Operation,
-    beside: Option<([u8; 2], [f64; 2])>,
-    position: &mut Point,
-    shaped: &mut Shaped,
-) -> bool {
+fn shape(operation: &Operation, offsetting: &Offsetting, position: &mut Point, shaped: &mut Shaped) -> bool {
     let from = *position;
-    let beside = |to: Point| beside.map_or(to, |(axes, vector)| moved(to, axes, vector));
+    let beside = |to: Point| if offsetting.is_on() { moved(to, offsetting.vector()) } else { to };
     let to = match operation.act {
         Act::Rapid { to, kind } => {
             let to = beside(to);
@@ -147,7 +143,7 @@ fn shape(
     shaped.stop_point = operation.stop_point;
     shaped.until_signal = operation.until_signal;
     shaped.stroke_check = operation.stroke_check;
-    shaped.certain = true;
+    shaped.certain = !offsetting.is_doubtful();
     shaped.beside = None;
     let moves = match &shaped.shape {
         Shape::Arc { .. } => true,
@@ -159,7 +155,7 @@ fn shape(
 }
 
 /// A point moved in the plane of two axes.
-fn moved(mut point: Point, axes: [u8; 2], vector: [f64; 2]) -> Point {
+fn moved(mut point: Point, (axes, vector): ([u8; 2], [f64; 2])) -> Point {
     for (axis, way) in axes.iter().zip(vector) {
         if let Some(place) = point.get_mut(usize::from(*axis)) {
             *place += way;

@@ -120,17 +120,25 @@ impl Interpreter {
     ///
     /// # Errors
     /// A barrier must be answered first.
+    #[inline]
     pub fn look_ahead(&mut self, index: usize) -> Result<Option<&Command>, Barrier> {
+        if index >= self.queue.len() {
+            self.read_to(index)?;
+        }
+        Ok(self.queue.behind(index))
+    }
+
+    fn read_to(&mut self, index: usize) -> Result<(), Barrier> {
         if let Some(barrier) = self.barrier {
             return Err(barrier);
         }
         let [_, compensation, _] = self.reader.setting.control.read_ahead;
         while self.queue.len() <= index {
             if index > compensation || !self.read_one()? {
-                return Ok(None);
+                break;
             }
         }
-        Ok(self.queue.behind(index))
+        Ok(())
     }
 
     /// The operation handed out last.

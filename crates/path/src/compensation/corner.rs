@@ -80,22 +80,25 @@ pub(crate) fn side_of(bend: &Bend, s: f64) -> Corner {
     if turns_back || s * bend.sin < 0.0 { Corner::Outside } else { Corner::Inside }
 }
 
-/// The corner between two elements for a tool beside both by `s`, left positive; `None` if its paths inside the corner
+/// The corner between two elements for a tool beside both by `s`, left positive; false if its paths inside the corner
 /// do not meet.
-pub(crate) fn join(first: &Edge, second: &Edge, s: f64, round: bool) -> Option<Join> {
+pub(crate) fn join(first: &Edge, second: &Edge, s: f64, round: bool, join: &mut Join) -> bool {
     let bend = bend(first, second);
-    match side_of(&bend, s) {
+    join.count = 1;
+    join.round = false;
+    join.corner = side_of(&bend, s);
+    match join.corner {
         Corner::None => {
             let middle = add(first.normal(1, 1.0), second.normal(0, 1.0));
-            Some(Join::at(times(middle, s / length(middle))))
+            join.places[0] = times(middle, s / length(middle));
         }
         Corner::Inside => {
-            let [beside, along] = bend.meeting(s)?;
-            let place = add(first.normal(1, s + beside), times(first.tangent[1], along));
-            Some(Join { corner: Corner::Inside, ..Join::at(place) })
+            let Some([beside, along]) = bend.meeting(s) else { return false };
+            join.places[0] = add(first.normal(1, s + beside), times(first.tangent[1], along));
         }
-        Corner::Outside => Some(outside(first, second, &bend, s, round)),
+        Corner::Outside => *join = outside(first, second, &bend, s, round),
     }
+    true
 }
 
 /// Round an outside corner: on an arc, or along the elements' tangents to where they meet, if that is not too far.

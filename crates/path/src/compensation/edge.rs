@@ -23,6 +23,7 @@ pub(crate) struct Edge {
 
 impl Edge {
     /// The shape of an element; `None` for one without length.
+    #[inline]
     pub fn new(element: &Element) -> Option<Edge> {
         let Some(turn) = element.turn else {
             let way = times(less(element.to, element.from), 1.0 / COUNTS);
