@@ -16,6 +16,7 @@ impl Control {
     ///
     /// # Errors
     /// The value lies outside the address's range.
+    #[inline]
     pub fn length(&self, address: &Address, number: Decimal, units: UnitSystem, coarse: i64) -> Result<i64, Refused> {
         let (increment, unit, range) = match units {
             UnitSystem::Metric => (self.increments[0], MM, address.metric),

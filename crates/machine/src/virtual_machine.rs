@@ -226,23 +226,23 @@ impl VirtualMachine {
         let place = &timed.shaped.place;
         let Timed { duration, length, feed, .. } = *timed;
         let (duration, length) = (Seconds(duration.0 * part), length * part);
-        let kind = match *shape {
+        self.time += duration;
+        let (time, place) = (self.time, *place);
+        match shape {
             Shape::Rapid { from, to, .. } => {
-                self.position = to;
-                EventKind::Rapid { from, to, duration, length }
+                self.position = *to;
+                tell(Event { time, place, kind: EventKind::Rapid { from: *from, to: *to, duration, length } });
             }
             Shape::Line { from, to, .. } => {
-                self.position = to;
-                EventKind::Feed { from, to, feed, duration, length }
+                self.position = *to;
+                tell(Event { time, place, kind: EventKind::Feed { from: *from, to: *to, feed, duration, length } });
             }
             Shape::Arc { arc, .. } => {
                 self.position = arc.to;
-                EventKind::Arc { arc, feed, duration, length }
+                tell(Event { time, place, kind: EventKind::Arc { arc: *arc, feed, duration, length } });
             }
-            _ => return,
-        };
-        self.time += duration;
-        self.tell(tell, place, kind);
+            _ => {}
+        }
     }
 }
 

@@ -203,6 +203,12 @@ impl Command {
         self.body.moves()
     }
 
+    /// It is a straight cut. (On its own, so that no copy is made on the way where other blocks are other things.)
+    #[inline(never)]
+    pub(crate) fn cut_to(&mut self, to: &Point, feed: Feed) {
+        self.body = Body::Line { to: *to, feed };
+    }
+
     /// True if it cuts: a feed is in use.
     pub fn cuts(&self) -> bool {
         match &self.body {

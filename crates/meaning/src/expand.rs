@@ -12,6 +12,8 @@ use crate::setting::{Setting, to_mm};
 /// Which part of the block is next.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Part {
+    /// No command is at hand.
+    Idle,
     CodesBefore,
     Body,
     CodesAfter,
@@ -39,19 +41,39 @@ pub(crate) struct Expansion {
 }
 
 impl Expansion {
-    pub fn new(command: &Command) -> Expansion {
+    /// An expansion with no command at hand.
+    pub fn idle() -> Expansion {
         Expansion {
-            part: Part::CodesBefore,
+            part: Part::Idle,
             index: 0,
             phase: 0,
             hole: 0,
             cursor: Cursor::default(),
-            position: command.from,
-            target: command.from,
+            position: [0.0; AXES],
+            target: [0.0; AXES],
             hits: [0.0; 2],
             start: 0.0,
             missed: false,
         }
+    }
+
+    pub fn is_idle(&self) -> bool {
+        self.part == Part::Idle
+    }
+
+    /// Begins with a command; written field by field, for it is done for every block.
+    pub fn begin(&mut self, command: &Command) {
+        self.part = Part::CodesBefore;
+        (self.index, self.phase, self.hole) = (0, 0, 0);
+        self.cursor = Cursor::default();
+        (self.position, self.target) = (command.from, command.from);
+        (self.hits, self.start) = ([0.0; 2], 0.0);
+        self.missed = false;
+    }
+
+    /// The command is done with.
+    pub fn end(&mut self) {
+        self.part = Part::Idle;
     }
 
     /// A move that waits for the skip signal has ended here (mm and degrees); the same in counts.
@@ -118,7 +140,7 @@ impl Expansion {
                     out.act = Act::Close(close(command.finish, setting.switches.optional_stop));
                     break;
                 }
-                Part::Done => return false,
+                Part::Idle | Part::Done => return false,
             }
         }
         out.block = command.block;

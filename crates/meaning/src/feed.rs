@@ -86,21 +86,30 @@ impl Reading<'_> {
     }
 
     /// The feed of a straight cut to `to`. If rotary axes alone move, F is degrees a minute or a turn, in inches too.
+    #[inline]
     pub fn feed_to(&self, to: &Point) -> Result<Feed, Alarm> {
-        if !self.next.feed.inch {
-            return self.feed();
+        if self.next.feed.inch && self.turns_alone(to) {
+            self.feed_by(1e6 / NM_PER_INCH as f64)
+        } else {
+            self.feed_by(1.0)
         }
+    }
+
+    /// True if rotary axes alone move.
+    #[cold]
+    fn turns_alone(&self, to: &Point) -> bool {
         let axes = self.setting.facts.axes.iter().enumerate().take(AXES);
         let mut moving = axes.filter(|&(axis, _)| to[axis] != self.next.machine[axis]).peekable();
-        let turns = moving.peek().is_some() && moving.all(|(_, facts)| facts.rotary);
-        if turns { self.feed_by(1e6 / NM_PER_INCH as f64) } else { self.feed() }
+        moving.peek().is_some() && moving.all(|(_, facts)| facts.rotary)
     }
 
     /// The feed of a cutting move.
+    #[inline]
     pub fn feed(&self) -> Result<Feed, Alarm> {
         self.feed_by(1.0)
     }
 
+    #[inline]
     fn feed_by(&self, factor: f64) -> Result<Feed, Alarm> {
         let per_revolution = self.is_per_revolution();
         let keeps = self.setting.fitting.policies.feed_mode_change == FeedModeChange::KeepsNumber;

@@ -30,7 +30,7 @@ use crate::unknown::letter_bit;
 pub struct Interpreter {
     pub(crate) reader: Reader,
     queue: Queue,
-    expansion: Option<Expansion>,
+    expansion: Expansion,
     /// The operation handed out last.
     operation: Operation,
     barrier: Option<Barrier>,
@@ -84,7 +84,7 @@ impl Interpreter {
         Interpreter {
             reader: Reader::new(setting, state),
             queue: Queue::new(&empty_command(&state)),
-            expansion: None,
+            expansion: Expansion::idle(),
             operation: Operation::default(),
             barrier: None,
             barriers: 0,
@@ -244,7 +244,7 @@ impl Interpreter {
 
     fn drop_queue(&mut self) {
         self.queue.clear();
-        self.expansion = None;
+        self.expansion.end();
         self.barrier = None;
         self.gathered.clear();
         self.runs_again = None;

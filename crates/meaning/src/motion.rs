@@ -30,7 +30,7 @@ impl Reading<'_> {
                 match motion {
                     Meaning::Linear => {
                         let feed = self.feed_to(&to)?;
-                        self.command.body = Body::Line { to, feed };
+                        self.command.cut_to(&to, feed);
                     }
                     Meaning::Thread => {
                         // Neither override nor feed hold may part the tool from the thread.

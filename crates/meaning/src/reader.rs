@@ -226,15 +226,16 @@ impl Reader {
                 Some(line) => self.take_line(line, &frame, command),
                 None => {
                     self.word_values.clear();
-                    self.take_block(&frame, command)
+                    if !self.take_block(&frame, command) {
+                        continue;
+                    }
+                    self.records.keep_if_recorded(command.block, self.setting.record.as_ref());
+                    return Read::Command;
                 }
             };
             if let Some(read) = read {
-                if let Some(record) = &self.setting.record {
-                    self.records.keep(command.block, record.borrow().clone());
-                }
-                // The usual answer is written anew: a copy of what has just been written waits for it.
-                return if matches!(read, Read::Command) { Read::Command } else { read };
+                self.records.keep_if_recorded(command.block, self.setting.record.as_ref());
+                return read;
             }
         }
     }
@@ -287,8 +288,8 @@ impl Reader {
         }
     }
 
-    /// Gives the block its meaning; `None` reads on (a jump's target is looked for first, or the block is passed over).
-    fn take_block(&mut self, frame: &Frame, command: &mut Command) -> Option<Read> {
+    /// Gives the block its meaning; false reads on (a jump's target is looked for first, or the block is passed over).
+    fn take_block(&mut self, frame: &Frame, command: &mut Command) -> bool {
         let place = self.place_of_block(frame);
         self.prepare(command, place);
         *self.next = *self.state;
@@ -309,20 +310,20 @@ impl Reader {
                         if flow == Flow::Next {
                             self.call_after_move(command);
                         }
-                        Some(Read::Command)
+                        true
                     }
-                    Err(alarm) => self.refuse(alarm, command),
+                    Err(alarm) => self.refuse(alarm, command).is_some(),
                 }
             }
             Err(Refusal::Locate(target)) => {
                 let main = self.calls.frames.first().map_or(frame.source, |main| main.source);
                 self.search = Some(Search::new(target, main, &self.calls.index, LoopsAround::default()));
-                None
+                false
             }
             Err(Refusal::Alarm(alarm)) => {
                 self.begin(self.block.next, command);
                 let alarm = self.name_row(alarm);
-                self.refuse(alarm, command)
+                self.refuse(alarm, command).is_some()
             }
         }
     }

@@ -2,6 +2,7 @@
 //!
 //! Nothing is kept unless it is asked for ([`crate::Interpreter::record_words`]); running a program costs nothing more.
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, VecDeque};
 
 use base::{Place, SourceId};
@@ -104,7 +105,13 @@ pub(crate) struct Records {
 }
 
 impl Records {
-    pub fn keep(&mut self, block: u64, words: WordsRead) {
+    pub fn keep_if_recorded(&mut self, block: u64, words: Option<&RefCell<WordsRead>>) {
+        if let Some(words) = words {
+            self.keep(block, words.borrow().clone());
+        }
+    }
+
+    fn keep(&mut self, block: u64, words: WordsRead) {
         if self.kept.len() >= KEPT {
             self.kept.pop_front();
         }

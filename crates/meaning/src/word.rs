@@ -113,6 +113,7 @@ impl<'b> Words<'b> {
     }
 
     /// The number of a word; variables have become numbers before the block is given its meaning.
+    #[inline]
     pub fn number(&self, letter: u8) -> Result<Option<Decimal>, Alarm> {
         match self.word(letter) {
             None => Ok(None),
@@ -132,6 +133,7 @@ impl<'b> Words<'b> {
     }
 
     /// The number of this word.
+    #[inline]
     pub fn value(&self, word: &Word) -> Result<Decimal, Alarm> {
         match word.value {
             Value::Number(number) => Ok(number),
@@ -146,6 +148,7 @@ impl<'b> Words<'b> {
     }
 
     /// An alarm about a word.
+    #[cold]
     pub fn alarm_at(&self, condition: Condition, word: &Word) -> Alarm {
         Alarm::new(condition, self.place, self.span(word)).about(word.letter)
     }

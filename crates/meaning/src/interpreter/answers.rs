@@ -41,8 +41,8 @@ impl Interpreter {
     /// A move that waits for the skip signal has ended. Nothing has been read beyond its block.
     fn measured(&mut self, answer: Answer) {
         let Answer::Stands(at, signalled) = answer else { return };
-        if let (Some(expansion), Some(command)) = (self.expansion.as_mut(), self.queue.front_mut()) {
-            crate::skip::measured(&self.reader.setting, expansion, command, &at, signalled);
+        if let Some(command) = self.queue.front_mut().filter(|_| !self.expansion.is_idle()) {
+            crate::skip::measured(&self.reader.setting, &mut self.expansion, command, &at, signalled);
             (self.reader.state.machine, self.reader.state.skip) = (command.after.machine, command.after.skip);
         }
     }

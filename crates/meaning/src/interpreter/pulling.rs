@@ -4,7 +4,6 @@ use base::Place;
 
 use super::Interpreter;
 use crate::command::{Body, Command, Finish};
-use crate::expand::Expansion;
 use crate::operation::{Act, Close, EndKind, Operation};
 use crate::pull::{Barrier, BarrierKind, Pull};
 use crate::reader::{Read, empty_command};
@@ -47,7 +46,7 @@ impl Interpreter {
                 return Pull::Item(&self.operation);
             }
             match self.queue.front() {
-                Some(command) => self.expansion = Some(Expansion::new(command)),
+                Some(command) => self.expansion.begin(command),
                 None => return Pull::End,
             }
         }
@@ -68,10 +67,12 @@ impl Interpreter {
 
     /// Makes the next operation of the block being executed; the block leaves the queue when it is done.
     fn next_of_front(&mut self) -> Option<Front> {
-        let expansion = self.expansion.as_mut()?;
+        if self.expansion.is_idle() {
+            return None;
+        }
         let command = self.queue.front()?;
-        if !expansion.next(command, &self.reader.setting, &mut self.operation) {
-            self.expansion = None;
+        if !self.expansion.next(command, &self.reader.setting, &mut self.operation) {
+            self.expansion.end();
             self.queue.pop();
             self.reader.ahead = 0;
             return None;
@@ -82,7 +83,7 @@ impl Interpreter {
                 match self.runs_again.take() {
                     None => {
                         // The close comes again when the question is answered.
-                        expansion.close_again();
+                        self.expansion.close_again();
                         return Some(Front::Question);
                     }
                     Some(true) => self.operation.act = Act::Close(Close::Next),

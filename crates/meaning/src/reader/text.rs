@@ -98,14 +98,14 @@ impl Reader {
                 return self.refuse_statement((condition, extent, values), frame, command);
             }
         }
-        let read = self.take_block(frame, command);
-        if read.is_some() {
+        let taken = self.take_block(frame, command);
+        if taken {
             self.answers.clear();
             if line.has_runs && self.variables_doubtful && self.goes_on {
                 self.forget_what_it_names();
             }
         }
-        read
+        taken.then_some(Read::Command)
     }
 
     /// The loop that begins at `head` has come round to what it was: the program asks whether it shall go on.
