@@ -63,26 +63,22 @@ impl Command {
         self.drops.has(usize::from(axis))
     }
 
-    /// The way of the block in a plane; `part` 1 is the straight piece behind an arc that has one.
-    #[inline]
-    pub fn element(&self, plane: [u8; 2], part: u8) -> Option<Element> {
+    /// Writes the way of the block in a plane to `way`; false if it has none. `part` 1 is the straight piece behind an
+    /// arc that has one.
+    pub fn element(&self, plane: [u8; 2], part: u8, way: &mut Element) -> bool {
         let at = |point: &base::Point| plane.map(|axis| point.get(usize::from(axis)).copied().unwrap_or(0.0));
-        let from = at(&self.from);
+        way.from = at(&self.from);
+        way.turn = None;
         match (&self.body, part) {
-            (Body::Rapid { to, .. } | Body::Line { to, .. } | Body::Checked { to, .. }, 0) => {
-                let to = at(to);
-                (from != to).then_some(Element { from, to, turn: None })
-            }
+            (Body::Rapid { to, .. } | Body::Line { to, .. } | Body::Checked { to, .. }, 0) => way.to = at(to),
             (Body::Arc { to, center, clockwise, full_circle, foot, .. }, 0) => {
-                let turn = Turn { center: *center, clockwise: *clockwise, full_circle: *full_circle };
-                Some(Element { from, to: foot.unwrap_or(at(to)), turn: Some(turn) })
+                way.to = foot.unwrap_or(at(to));
+                way.turn = Some(Turn { center: *center, clockwise: *clockwise, full_circle: *full_circle });
             }
-            (Body::Arc { to, foot: Some(foot), .. }, 1) => {
-                let to = at(to);
-                (*foot != to).then_some(Element { from: *foot, to, turn: None })
-            }
-            _ => None,
+            (Body::Arc { to, foot: Some(foot), .. }, 1) => (way.from, way.to) = (*foot, at(to)),
+            _ => return false,
         }
+        way.turn.is_some() || way.from != way.to
     }
 
     /// Into how many parts the way of the block falls.

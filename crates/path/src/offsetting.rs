@@ -4,7 +4,7 @@
 use base::{Alarm, Condition, Point};
 use meaning::{Act, Barrier, Command, Element, Interpreter};
 
-use crate::compensation::{Beside, Compensation, Edge, Fault, Join, Next, NextKind, Plan, Rules, Vector, Which};
+use crate::compensation::{Beside, Compensation, Fault, Join, Next, NextKind, Plan, Rules, Vector, Which};
 use crate::pieces::{Carried, Pieces};
 use crate::shape::Shaped;
 
@@ -106,7 +106,10 @@ impl Offsetting {
             self.compensation.drop_on(axes.map(|axis| command.drops_on(axis)));
             return Ok(Taken::AsItIs);
         }
-        let Some(element) = command.element(axes, part) else { return Ok(Taken::AsItIs) };
+        let mut element = Element::default();
+        if !command.element(axes, part, &mut element) {
+            return Ok(Taken::AsItIs);
+        }
         let Some(offset) = offset else {
             self.compensation.cancel();
             if element.turn.is_none() {
@@ -117,9 +120,11 @@ impl Offsetting {
         };
         if !self.is_known || (self.ahead.block, self.ahead.part) != (block, part) {
             self.is_known = false;
-            let Some(edge) = Edge::new(&element) else { return Ok(Taken::AsItIs) };
+            if !self.ahead.way.edge.take(&element) {
+                return Ok(Taken::AsItIs);
+            }
             self.ahead.at = look(upstream, At { index: 0, part, block }, axes, &mut self.ahead.next)?;
-            self.ahead.way = Beside { edge, offset };
+            self.ahead.way.offset = offset;
         }
         let mut behind = self.ahead.at;
         self.after.kind = NextKind::Unseen;
@@ -203,6 +208,7 @@ impl Offsetting {
 fn look(upstream: &mut Interpreter, way: At, axes: [u8; 2], next: &mut Next) -> Result<At, Barrier> {
     let mut at = way;
     let mut still = 0;
+    let mut element = Element::default();
     let mut parts = upstream.look_ahead(at.index)?.map_or(1, Command::parts);
     next.kind = NextKind::Unseen;
     loop {
@@ -216,24 +222,17 @@ fn look(upstream: &mut Interpreter, way: At, axes: [u8; 2], next: &mut Next) -> 
             next.kind = NextKind::Ends;
             return Ok(at);
         }
-        let edge = command.element(axes, at.part).and_then(|element| Edge::new(&element));
-        match (edge, command.offset()) {
-            (Some(edge), Some(offset)) => {
-                next.kind = NextKind::Element;
-                next.beside.edge = edge;
-                next.beside.offset = offset;
-                return Ok(at);
+        if command.element(axes, at.part, &mut element) && next.beside.edge.take(&element) {
+            next.kind = NextKind::Ends;
+            if let Some(offset) = command.offset() {
+                (next.kind, next.beside.offset) = (NextKind::Element, offset);
             }
-            (Some(_), None) => {
-                next.kind = NextKind::Ends;
+            return Ok(at);
+        }
+        if at.part == 0 {
+            still += 1;
+            if still > BRIDGED {
                 return Ok(at);
-            }
-            (None, _) if at.part > 0 => {}
-            (None, _) => {
-                still += 1;
-                if still > BRIDGED {
-                    return Ok(at);
-                }
             }
         }
     }

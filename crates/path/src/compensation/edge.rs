@@ -23,30 +23,29 @@ pub(crate) struct Edge {
 
 impl Edge {
     /// The shape of an element; `None` for one without length.
-    #[inline]
     pub fn new(element: &Element) -> Option<Edge> {
-        let Some(turn) = element.turn else {
+        let mut edge = Edge::default();
+        edge.take(element).then_some(edge)
+    }
+
+    /// Becomes the shape of an element; false for one without length.
+    pub fn take(&mut self, element: &Element) -> bool {
+        let Some(turn) = &element.turn else {
             let way = times(less(element.to, element.from), 1.0 / COUNTS);
-            let length = length(way);
-            let tangent = times(way, 1.0 / length);
-            return (length > 0.0).then_some(Edge {
-                tangent: [tangent; 2],
-                curvature: [0.0; 2],
-                length,
-                sweep: 0.0,
-                full_circle: false,
-            });
+            self.length = length(way);
+            self.tangent = [times(way, 1.0 / self.length); 2];
+            (self.curvature, self.sweep, self.full_circle) = ([0.0; 2], 0.0, false);
+            return self.length > 0.0;
         };
         let spoke = [element.from, element.to].map(|end| times(less(end, turn.center), 1.0 / COUNTS));
         let radius = spoke.map(length);
         let sense = if turn.clockwise { -1.0 } else { 1.0 };
-        (radius[0] > 0.0 && radius[1] > 0.0).then(|| Edge {
-            tangent: [0, 1].map(|end| times(left(spoke[end]), sense / radius[end])),
-            curvature: radius.map(|radius| sense / radius),
-            length: 0.0,
-            sweep: sweep_between(spoke[0], spoke[1], turn.clockwise, turn.full_circle),
-            full_circle: turn.full_circle,
-        })
+        self.length = 0.0;
+        self.tangent = [0, 1].map(|end| times(left(spoke[end]), sense / radius[end]));
+        self.curvature = radius.map(|radius| sense / radius);
+        self.sweep = sweep_between(spoke[0], spoke[1], turn.clockwise, turn.full_circle);
+        self.full_circle = turn.full_circle;
+        radius[0] > 0.0 && radius[1] > 0.0
     }
 
     /// True for an arc.
