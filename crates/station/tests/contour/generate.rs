@@ -164,10 +164,11 @@ pub fn rounded_walk(random: &mut Random, radius: f64, side: f64) -> Contour {
 
 /// A closed contour that goes once round the origin, counter-clockwise, convex or not, some of its sides arcs.
 pub fn closed(random: &mut Random, size: f64, unit: i64) -> Contour {
-    let corners = 3 + random.below(9);
-    let rough = random.pick(&[0.0, 0.05, 0.2, 0.5]);
+    let most = random.pick(&[3, 9, 27]);
+    let corners = 3 + random.below(most);
+    let rough = random.pick(&[0.0, 0.05, 0.2, 0.5, 0.8]);
     let arcs = random.pick(&[0.0, 0.3, 0.7]);
-    let bulge = random.pick(&[0.4, 1.2, 3.0]);
+    let bulge = random.pick(&[0.4, 1.2, 3.0, 4.5]);
     let uneven = random.between(0.0, 0.7) / corners as f64;
     let angles: Vec<f64> =
         (0..corners).map(|n| (n as f64 / corners as f64 + random.between(-uneven, uneven) / 2.0) * TAU).collect();
