@@ -3,6 +3,7 @@
 #![allow(dead_code)] // each test takes what it needs of it
 
 pub mod claims;
+pub mod double;
 pub mod generate;
 pub mod measure;
 pub mod program;
@@ -75,7 +76,7 @@ impl Element {
         Element { from: map(self.from), to: map(self.to), round }
     }
 
-    fn backwards(&self) -> Element {
+    pub fn backwards(&self) -> Element {
         let round = self.round.map(|round| Round { ccw: !round.ccw, ..round });
         Element { from: self.to, to: self.from, round }
     }

@@ -36,6 +36,8 @@ pub struct Job {
     pub corners: Corners,
     /// G20 instead of G21.
     pub inch: bool,
+    /// G91 instead of G90.
+    pub incremental: bool,
     /// An index of `PLANES`.
     pub plane: usize,
 }
@@ -43,7 +45,7 @@ pub struct Job {
 impl Job {
     /// The tool to the left of the path by `side` mm, to the right if it is negative; M96 or M97.
     pub fn new(side: f64, corners: Corners) -> Job {
-        Job { offset: side.abs(), right: side < 0.0, corners, inch: false, plane: 0 }
+        Job { offset: side.abs(), right: side < 0.0, corners, inch: false, incremental: false, plane: 0 }
     }
 
     /// How far the tool is to the left of the path, mm.
@@ -62,6 +64,55 @@ impl Job {
     fn words(&self, letters: [&str; 2], place: Place) -> String {
         format!("{}{}{}{}", letters[0], self.length(place[0]), letters[1], self.length(place[1]))
     }
+
+    /// A point twice as far beside a path as the tool runs: there, neither way on nor off touches what the path leaves
+    /// free.
+    fn beside(&self, at: Vector, tangent: Vector) -> Place {
+        let unit = if self.inch { 127_000.0 } else { 1000.0 };
+        add(at, times(left_of(tangent), 2.0 * self.side())).map(|mm| (mm * 1e6 / unit).round() as i64 * unit as i64)
+    }
+}
+
+/// No word names a place farther off, nm.
+const FARTHEST: i64 = 90_000_000_000;
+
+/// The program of a contour: from beside its start onto it, along it, and off its end.
+pub fn text(contour: &Contour, job: Job) -> String {
+    let (plane, letters, centers) = PLANES[job.plane];
+    let forms = contour.forms();
+    let (first, last) = (&forms[0], &forms[forms.len() - 1]);
+    let start = job.beside(first.from(), first.tangents()[0]);
+    let end = job.beside(last.to(), last.tangents()[1]);
+    let way = |from: Place, to: Place| {
+        job.words(letters, if job.incremental { [to[0] - from[0], to[1] - from[1]] } else { to })
+    };
+    let positions = if job.incremental { "G91" } else { "G90" };
+    let units = if job.inch { "G20" } else { "G21" };
+    let corners = if job.corners == Corners::Arcs { "M96" } else { "M97" };
+    let on = if job.right { "G42" } else { "G41" };
+    let mut text = format!("{positions}{plane}{units}G94G40{corners}\n");
+    let mut at = [0, 0];
+    while at != start {
+        let next = [0, 1].map(|axis| at[axis] + (start[axis] - at[axis]).clamp(-FARTHEST, FARTHEST));
+        let _ = writeln!(text, "G00{}", way(at, next));
+        at = next;
+    }
+    let _ = writeln!(text, "{on}D01");
+    let begin = contour.elements[0].from;
+    let _ = writeln!(text, "G01{}F{}", way(start, begin), if job.inch { "5." } else { "127." });
+    for element in &contour.elements {
+        let end = way(element.from, element.to);
+        let _ = match element.round {
+            None => writeln!(text, "G01{end}"),
+            Some(round) => {
+                let spoke = [0, 1].map(|axis| round.center[axis] - element.from[axis]);
+                writeln!(text, "G0{}{end}{}", if round.ccw { 3 } else { 2 }, job.words(centers, spoke))
+            }
+        };
+    }
+    let off = way(contour.elements[contour.elements.len() - 1].to, end);
+    let _ = writeln!(text, "G40\nG01{off}\nM30");
+    text
 }
 
 /// What the control calls interference.
@@ -72,41 +123,6 @@ const INTERFERENCE: [Condition; 5] = [
     Condition::CompensatedPathsApart,
     Condition::LaterPathCut,
 ];
-
-/// Blocks before the first element.
-const HEAD: u64 = 5;
-
-/// The program of a contour: from beside its start onto it, along it, and off its end.
-pub fn text(contour: &Contour, job: Job) -> String {
-    let (plane, letters, centers) = PLANES[job.plane];
-    let forms = contour.forms();
-    let (first, last) = (&forms[0], &forms[forms.len() - 1]);
-    // Twice as far to the side as the tool runs: neither way on nor off touches what the contour leaves free.
-    let unit = if job.inch { 127_000.0 } else { 1000.0 };
-    let beside = |at: Vector, tangent: Vector| {
-        let point = add(at, times(left_of(tangent), 2.0 * job.side()));
-        job.words(letters, point.map(|mm| (mm * 1e6 / unit).round() as i64 * unit as i64))
-    };
-    let units = if job.inch { "G20" } else { "G21" };
-    let corners = if job.corners == Corners::Arcs { "M96" } else { "M97" };
-    let on = if job.right { "G42" } else { "G41" };
-    let mut text = format!("G90{plane}{units}G94G40\n{corners}\n");
-    let _ = writeln!(text, "G00{}", beside(first.from(), first.tangents()[0]));
-    let _ = writeln!(text, "{on}D01");
-    let _ = writeln!(text, "G01{}F{}", job.words(letters, contour.elements[0].from), if job.inch { "5." } else { "127." });
-    for element in &contour.elements {
-        let end = job.words(letters, element.to);
-        let _ = match element.round {
-            None => writeln!(text, "G01{end}"),
-            Some(round) => {
-                let spoke = [0, 1].map(|axis| round.center[axis] - element.from[axis]);
-                writeln!(text, "G0{}{end}{}", if round.ccw { 3 } else { 2 }, job.words(centers, spoke))
-            }
-        };
-    }
-    let _ = writeln!(text, "G40\nG01{}", beside(last.to(), last.tangents()[1]));
-    text + "M30\n"
-}
 
 /// A piece of the centre path.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -180,10 +196,12 @@ impl Bench {
         select(&mut session, 0);
         session.start();
         let [u, v] = AXES[plane];
+        // The block that leads onto the contour is the first one with a feed.
+        let onto = text.lines().position(|line| line.contains('F')).map_or(0, |line| line as i64 + 1);
         let mut run = Run::default();
         loop {
             let Step::Event(event) = session.next() else { break };
-            let element = event.place.line as i64 - 1 - HEAD as i64;
+            let element = event.place.line as i64 - onto - 1;
             let form = match &event.kind {
                 EventKind::Rapid { from, to, .. } | EventKind::Feed { from, to, .. } => {
                     Form::line([from[u], from[v]], [to[u], to[v]])
