@@ -97,17 +97,23 @@ struct Claim<'a> {
     exactness: f64,
 }
 
+/// How exactly the tool can keep its distance where arcs end beside their circle: they are taken as spirals, whose
+/// normal is not their spoke.
+fn exactness(contour: &Contour, job: Job) -> f64 {
+    let bent = contour.elements.iter().map(|element| {
+        let slope = element.growth() / element.form().length();
+        2.0 * element.growth() + job.offset.abs() * slope * slope
+    });
+    EXACTNESS + bent.fold(0.0, f64::max)
+}
+
 /// Holds a run against what was programmed.
 ///
 /// # Errors
 /// The first claim that does not hold.
 pub fn check(contour: &Contour, job: Job, run: &Run) -> Result<Seen, String> {
     let forms = contour.forms();
-    let bent = contour.elements.iter().zip(&forms).map(|(element, form)| {
-        let slope = element.growth() / form.length();
-        2.0 * element.growth() + job.offset.abs() * slope * slope
-    });
-    let exactness = EXACTNESS + bent.fold(0.0, f64::max);
+    let exactness = exactness(contour, job);
     let claim = Claim { forms: &forms, run, side: job.side(), corners: job.corners, exactness };
     let mut seen = Seen::default();
     for element in 0..run.ran(forms.len()) {
@@ -117,6 +123,33 @@ pub fn check(contour: &Contour, job: Job, run: &Run) -> Result<Seen, String> {
         claim.corner(element, &mut seen)?;
     }
     Ok(seen)
+}
+
+/// A place where the tool, beside one element, is inside another one.
+#[derive(Clone, Copy, Debug)]
+pub struct Cut {
+    pub element: usize,
+    pub other: usize,
+    pub depth: f64,
+    pub at: Vector,
+}
+
+/// Where the tool is inside elements up to `reach` before or behind the one that it runs beside.
+pub fn cuts(contour: &Contour, job: Job, run: &Run, reach: usize) -> Vec<Cut> {
+    let forms = contour.forms();
+    let exactness = exactness(contour, job);
+    let mut cuts = Vec::new();
+    for element in 0..run.ran(forms.len()) {
+        for other in element.saturating_sub(reach)..(element + reach + 1).min(forms.len()) {
+            let points = run.of(element).flat_map(|piece| piece.nearest_to(&forms[other], SAMPLES));
+            let depths = points.map(|at| (job.offset.abs() - forms[other].distance(at), at));
+            let Some((depth, at)) = depths.max_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
+            if depth > exactness {
+                cuts.push(Cut { element, other, depth, at });
+            }
+        }
+    }
+    cuts
 }
 
 impl Claim<'_> {
@@ -160,34 +193,20 @@ impl Claim<'_> {
         add(at, times(left_of(form.tangents()[end]), self.side))
     }
 
-    /// No point of the block's pieces is nearer than the radius to its element, the one before or the one after; beside
-    /// its own it is at the radius. Returns how many points were looked at.
+    /// The block's first piece runs at the radius. Returns how many points were looked at.
     fn clearance(&self, element: usize) -> Result<usize, String> {
-        let radius = self.side.abs();
-        let mut points = 0;
-        for other in element.saturating_sub(1)..(element + 2).min(self.forms.len()) {
-            for piece in self.run.of(element) {
-                for point in piece.nearest_to(&self.forms[other], SAMPLES) {
-                    points += 1;
-                    let distance = self.forms[other].distance(point);
-                    if !(distance >= radius - self.exactness) {
-                        return Err(format!(
-                            "element {element}: at {point:?} the tool is {} mm inside element {other}",
-                            radius - distance
-                        ));
-                    }
-                }
-            }
-        }
         let programmed = &self.forms[element];
-        let Some(main) = self.run.of(element).next() else { return Ok(points) };
-        for sample in 0..=SAMPLES {
-            let (share, beside) = programmed.foot(main.at(sample as f64 / SAMPLES as f64));
-            if (0.0..=1.0).contains(&share) && (beside - self.side).abs() > self.exactness {
-                return Err(format!("element {element}: the tool runs {beside} mm beside it"));
+        let Some(main) = self.run.of(element).next() else { return Ok(0) };
+        let points = main.nearest_to(programmed, SAMPLES);
+        for &point in &points {
+            let (share, beside) = programmed.foot(point);
+            let distance = programmed.distance(point);
+            let is_beside = (0.0..=1.0).contains(&share) && (beside - self.side).abs() > self.exactness;
+            if is_beside || distance < self.side.abs() - self.exactness {
+                return Err(format!("element {element}: the tool runs {beside} mm beside it, {distance} mm from it"));
             }
         }
-        Ok(points)
+        Ok(points.len())
     }
 
     /// The corner at the element's end.

@@ -121,7 +121,7 @@ const INTERFERENCE: [Condition; 5] = [
     Condition::CompensatedPathReversed,
     Condition::CompensatedCircleOpen,
     Condition::CompensatedPathsApart,
-    Condition::LaterPathCut,
+    Condition::ElementCut,
 ];
 
 /// A piece of the centre path.
@@ -184,8 +184,19 @@ pub struct Bench {
 }
 
 impl Bench {
+    /// As it comes.
     pub fn new() -> Bench {
-        let configuration = Configuration::new(control(), machine("unlimited", None), &[&Setup::default()]);
+        Bench::with(Setup::default())
+    }
+
+    /// A path that cuts into an element near its own is refused.
+    pub fn strict() -> Bench {
+        let policies = vec![("compensation-cut".to_owned(), "refuse".to_owned())];
+        Bench::with(Setup { policies, ..Setup::default() })
+    }
+
+    fn with(setup: Setup) -> Bench {
+        let configuration = Configuration::new(control(), machine("unlimited", None), &[&setup]);
         Bench { configuration: configuration.expect("the set-up fits") }
     }
 
