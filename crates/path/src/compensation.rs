@@ -23,7 +23,7 @@ pub(crate) use edge::Edge;
 use gouge::{Cut, Neighbours, cut};
 pub use interference::BACKWARDS_MM;
 pub(crate) use interference::Fault;
-use interference::judge;
+use interference::{judge, judge_room};
 pub(crate) use vector::{NONE, Vector, add, angle, cross, dot, length, less, times};
 
 /// An element with the offset of its block.
@@ -188,7 +188,9 @@ impl Compensation {
             let vectors = [plan.before.map_or(self.vector, |before| before.last()), plan.after.first()];
             // A known end has been judged when it was made.
             if !self.doubtful && known.is_none() {
-                judge(&now.edge, vectors, [self.radius, radius], &rules.table).map_err(|fault| (Which::This, fault))?;
+                judge_room(&now.edge, [self.radius, radius], &rules.table)
+                    .and_then(|()| judge(&now.edge, vectors, &rules.table))
+                    .map_err(|fault| (Which::This, fault))?;
             }
             if now.edge.is_arc() {
                 plan.sweep = now.edge.sweep_beside(vectors);
@@ -210,11 +212,11 @@ impl Compensation {
         rules: &Rules,
         end_of_next: &mut Join,
     ) -> Result<bool, Fault> {
+        judge_room(&next.edge, [now.offset.radius, next.offset.radius], &rules.table)?;
         if !end(next, after, end_of_next) {
             return Ok(false);
         }
-        let radii = [now.offset.radius, next.offset.radius];
-        judge(&next.edge, [plan.after.last(), end_of_next.first()], radii, &rules.table)?;
+        judge(&next.edge, [plan.after.last(), end_of_next.first()], &rules.table)?;
         Ok(true)
     }
 
@@ -241,7 +243,7 @@ impl Compensation {
         let (next, after) = (edge_of(next).filter(|_| !leads_away), edge_of(after));
         let before = Some(&self.last).filter(|_| !self.leads);
         let near = Neighbours { before, now: &now.edge, next: next.as_ref(), after: after.as_ref() };
-        let Some((which, depth)) = cut(&near, [self.vector, plan.after.first()], radius) else { return Ok(()) };
+        let Some((which, depth)) = cut(&near, self.vector, &plan.after, radius) else { return Ok(()) };
         let which = match which {
             Cut::Before => Which::This,
             Cut::Next => Which::Next,

@@ -54,9 +54,7 @@ fn sample(seed: u64, kind: Kind, unit: i64) -> Sample {
 /// The samples of one kind that can be run.
 fn samples(kind: Kind, unit: i64) -> impl Iterator<Item = Sample> {
     let first = 1_000_000 * kind as u64;
-    let fits = move |sample: &Sample| {
-        sample.contour.is_whole() && (kind == Kind::Rounded || sample.contour.is_exact())
-    };
+    let fits = move |sample: &Sample| sample.contour.is_whole() && (kind == Kind::Rounded || sample.contour.is_exact());
     (first..first + CONTOURS).map(move |seed| sample(seed, kind, unit)).filter(fits)
 }
 
@@ -105,7 +103,8 @@ fn claim_fails(benches: &mut Benches, sample: &Sample) -> Option<String> {
     // What one refuses because it would cut, the other does, if it comes so far.
     let elements = contour.elements.len();
     let is_cut = matches!(strict.alarm, Some((Condition::ElementCut, _))) && run.ran(elements) > strict.ran(elements);
-    (is_cut && cuts(contour, *job, &run, 2).is_empty()).then(|| format!("refused, but nothing is cut: {:?}", strict.alarm))
+    (is_cut && cuts(contour, *job, &run, 2).is_empty())
+        .then(|| format!("refused, but nothing is cut: {:?}", strict.alarm))
 }
 
 /// Runs all samples of a kind and holds every claim against them; how many ran to their end, of how many.
@@ -218,7 +217,11 @@ fn variants(sample: &Sample) -> Vec<Variant> {
         ("turned by 90 degrees", with(contour.turned(1), *job), |[x, y]| [-y, x]),
         ("turned by 180 degrees", with(contour.turned(2), *job), |[x, y]| [-x, -y]),
         ("turned by 270 degrees", with(contour.turned(3), *job), |[x, y]| [y, -x]),
-        ("the other code with a negative radius", with(contour.clone(), Job { offset: -job.offset, ..other_side }), |at| at),
+        (
+            "the other code with a negative radius",
+            with(contour.clone(), Job { offset: -job.offset, ..other_side }),
+            |at| at,
+        ),
         ("incremental", with(contour.clone(), Job { incremental: true, ..*job }), |at| at),
         ("in the ZX plane", with(contour.clone(), Job { plane: 1, ..*job }), |at| at),
         ("in the YZ plane", with(contour.clone(), Job { plane: 2, ..*job }), |at| at),

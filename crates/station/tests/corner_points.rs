@@ -213,7 +213,10 @@ fn corner_points_are_right_to_their_last_digits() {
     println!("{corners} corners, {inside} inside, {tangent} tangent; {ran} of {CORNERS} without alarm");
     println!("the worst has {share:.3} of what is allowed: {told}");
     assert!(share <= 1.0, "{told}");
-    assert!(ran as u64 * 2 > CORNERS && inside > 2000 && tangent > 300, "{ran} ran, {inside} inside, {tangent} tangent");
+    assert!(
+        ran as u64 * 2 > CORNERS && inside > 2000 && tangent > 300,
+        "{ran} ran, {inside} inside, {tangent} tangent"
+    );
 }
 
 /// The measure itself sees a billionth of a millimetre.

@@ -1,6 +1,7 @@
 //! Whether the tool, beside one element, cuts into another: the one before, the next one, or the one behind that.
 //! Everything is counted from the end of the element being run.
 
+use super::corner::Join;
 use super::edge::Edge;
 use super::vector::{NONE, Vector, add, cross, less, times};
 use crate::clearance::Curve;
@@ -17,17 +18,19 @@ pub(crate) struct Neighbours<'n> {
     pub after: Option<&'n Edge>,
 }
 
-/// By how much the path beside the element being run, from one vector to the other, cuts into the element behind the
-/// next one, into the next one and into the one before it, mm; the first that it cuts.
-pub(crate) fn cut(near: &Neighbours, vectors: [Vector; 2], s: f64) -> Option<(Cut, f64)> {
+/// By how much the path beside the element being run, from a vector to its end and round the corner there, cuts into the
+/// next element, into the one behind that and into the one before it, mm; the first that it cuts.
+pub(crate) fn cut(near: &Neighbours, start: Vector, corner: &Join, s: f64) -> Option<(Cut, f64)> {
     let Neighbours { before, now, next, after } = *near;
     let bends = |edge: &Edge| edge.is_arc();
-    let path = || ending(now, NONE, vectors);
-    let depth = |other: Curve| Some(s.abs() - path().distance(&other)).filter(|depth| *depth > CUT_MM);
+    let depth = |edge: &Edge, other: Curve| {
+        let nearest = pieces(now, start, corner).map(|piece| piece.distance(&other)).fold(f64::INFINITY, f64::min);
+        Some(s.abs() - nearest).filter(|depth| *depth > CUT_MM + unround(now) + unround(edge))
+    };
     if let Some(next) = next {
         let any = bends(now) || bends(next);
         // Beside a line the corner has seen to the next line.
-        if let Some(depth) = any.then(|| depth(beginning(next, NONE))).flatten() {
+        if let Some(depth) = any.then(|| depth(next, beginning(next, NONE))).flatten() {
             return Some((Cut::Next, depth));
         }
         if let Some(after) = after {
@@ -36,13 +39,33 @@ pub(crate) fn cut(near: &Neighbours, vectors: [Vector; 2], s: f64) -> Option<(Cu
             let wraps = side(now.tangent[1], next.tangent[0]) > 0.0
                 && side(next.tangent[1], after.tangent[0]) > 0.0
                 && side(now.tangent[1], after.tangent[0]) <= 0.0;
-            if let Some(depth) = (any || bends(after) || wraps).then(|| depth(beginning(after, way(next)))).flatten() {
+            let looks = any || bends(after) || wraps;
+            if let Some(depth) = looks.then(|| depth(after, beginning(after, way(next)))).flatten() {
                 return Some((Cut::After, depth));
             }
         }
     }
-    let before = before.filter(|before| bends(now) || bends(before))?;
-    depth(ending(before, times(way(now), -1.0), [NONE; 2])).map(|depth| (Cut::Before, depth))
+    // Going round a corner the tool can come back to a line as well.
+    let before = before.filter(|before| bends(now) || bends(before) || corner.places().len() > 1)?;
+    depth(before, ending(before, times(way(now), -1.0), [NONE; 2])).map(|depth| (Cut::Before, depth))
+}
+
+/// The path beside an element that ends at zero, and the way round the corner there.
+fn pieces(edge: &Edge, start: Vector, corner: &Join) -> impl Iterator<Item = Curve> {
+    let round = move |pair: &[Vector]| match pair {
+        [first, second] if corner.round => {
+            Curve::Arc { center: NONE, spoke: *first, sweep: super::vector::angle(*first, *second) }
+        }
+        [first, second] => Curve::Line([*first, *second]),
+        _ => Curve::Line([NONE; 2]),
+    };
+    let own = ending(edge, NONE, [start, corner.first()]);
+    std::iter::once(own).chain(corner.places().windows(2).map(round))
+}
+
+/// By how much an arc's radius differs from its start to its end: rounded words make it so.
+fn unround(edge: &Edge) -> f64 {
+    if edge.is_arc() { (1.0 / edge.curvature[0].abs() - 1.0 / edge.curvature[1].abs()).abs() } else { 0.0 }
 }
 
 /// Which element is cut.

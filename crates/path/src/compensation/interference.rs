@@ -27,11 +27,10 @@ pub(crate) enum Fault {
     Cut(f64),
 }
 
-/// Judges the path beside an element from one vector to another, for a tool beside it by `s` at its start and end.
-pub(crate) fn judge(edge: &Edge, vectors: [Vector; 2], s: [f64; 2], rules: &CompensationRules) -> Result<(), Fault> {
+/// Judges whether there is room beside an arc on the tool's side, for a tool beside it by `s` at its start and end.
+pub(crate) fn judge_room(edge: &Edge, s: [f64; 2], rules: &CompensationRules) -> Result<(), Fault> {
     if !edge.is_arc() {
-        let way = edge.length + dot(less(vectors[1], vectors[0]), edge.tangent[0]);
-        return if way < -BACKWARDS_MM { Err(Fault::Reversed(-way)) } else { Ok(()) };
+        return Ok(());
     }
     for (curvature, s) in edge.curvature.into_iter().zip(s) {
         // What is left of the radius on the tool's side.
@@ -39,6 +38,15 @@ pub(crate) fn judge(edge: &Edge, vectors: [Vector; 2], s: [f64; 2], rules: &Comp
         if left < -BACKWARDS_MM || rules.refuses_equal_arc && left < BACKWARDS_MM {
             return Err(Fault::InnerArc(1.0 / curvature.abs()));
         }
+    }
+    Ok(())
+}
+
+/// Judges the path beside an element from one vector to another.
+pub(crate) fn judge(edge: &Edge, vectors: [Vector; 2], rules: &CompensationRules) -> Result<(), Fault> {
+    if !edge.is_arc() {
+        let way = edge.length + dot(less(vectors[1], vectors[0]), edge.tangent[0]);
+        return if way < -BACKWARDS_MM { Err(Fault::Reversed(-way)) } else { Ok(()) };
     }
     let sweep = edge.sweep_beside(vectors) * edge.sweep.signum();
     let radius = (1.0 / edge.curvature[1].abs()).max(BACKWARDS_MM);

@@ -215,7 +215,8 @@ impl Claim<'_> {
         let corner = Corner::new(&self.forms[element], next, self.side);
         let pieces: Vec<Form> = self.run.of(element).copied().collect();
         let end = pieces[pieces.len() - 1].to();
-        let wrong = |what: &str| Err(format!("corner {element} ({} degrees): {what}, {pieces:?}", corner.turn.to_degrees()));
+        let wrong =
+            |what: &str| Err(format!("corner {element} ({} degrees): {what}, {pieces:?}", corner.turn.to_degrees()));
         if corner.is_tangent() {
             seen.tangent += 1;
             let middle = times(add(corner.feet[0], corner.feet[1]), 0.5);
