@@ -28,7 +28,7 @@ HEADINGS = {"tangent": (1.0, 0.0), "inside": (0.6, 0.8), "sharp inside": (-0.6, 
             "square outside": (0.0, -1.0), "sharp outside": (-0.6, -0.8)}
 
 WHY_CORNER = "M97 joins the offset lines in a point, or in two where they turn by more than a right angle; LinuxCNC goes round, as M96 does"
-WHY_SHALLOW = "LinuxCNC leaves out the arc where the path turns outwards by less than 0.05 radians, and cuts the corner by so much"
+WHY_SHALLOW = "LinuxCNC makes no corner where the path turns by less than 0.05 radians, but ends square to the line before it"
 SHALLOW = 0.05
 WHY_START = "start-up ends square to the next element; LinuxCNC's ends square to the way in and goes round a corner from there"
 
@@ -228,9 +228,7 @@ def starts(folder: Path) -> int:
 
 
 def shallow_corner(lines: list, difference: Difference) -> bool:
-    """Whether a difference lies at an outside corner, of a block's start or end, at which LinuxCNC makes no arc."""
-    code = [line[:3] for line in lines[: difference.line] if line.startswith(("G41", "G42"))][-1]
-    inwards = 1 if code == "G41" else -1
+    """Whether a difference lies at a corner of its block, or of one beside it, at which LinuxCNC makes none."""
     places = []
     for line in lines[difference.line - 3 : difference.line + 2]:
         words = re.findall(r"X(\S+) Y(\S+)", line)
@@ -238,7 +236,7 @@ def shallow_corner(lines: list, difference: Difference) -> bool:
     for a, b, c in zip(places, places[1:], places[2:]):
         way, on = (b[0] - a[0], b[1] - a[1]), (c[0] - b[0], c[1] - b[1])
         turn = math.atan2(way[0] * on[1] - way[1] * on[0], way[0] * on[0] + way[1] * on[1])
-        if -SHALLOW < turn * inwards < 0 and math.dist(b, difference.point) < ABOUT:
+        if abs(turn) < SHALLOW and math.dist(b, difference.point) < ABOUT:
             return True
     return False
 
