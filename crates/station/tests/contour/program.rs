@@ -252,8 +252,7 @@ impl Bench {
         // The block that leads onto the contour is the first one with a feed.
         let onto = text.lines().position(|line| line.contains('F')).map_or(0, |line| line as i64 + 1);
         let mut run = Run::default();
-        loop {
-            let Step::Event(event) = session.next() else { break };
+        while let Step::Event(event) = session.next() {
             let behind = event.place.line as i64 - onto - 1;
             let element = if behind < 0 { behind } else { (behind / lines).min(elements) };
             let form = match &event.kind {
