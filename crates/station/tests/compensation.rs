@@ -9,10 +9,10 @@ use base::Condition;
 use contour::claims::{Cut, Seen, check, cuts, same_path};
 use contour::measure::{Form, Vector, add, apart, left_of, minus, times};
 use contour::program::{Bench, Beside, Corners, Job, Piece, Run, text};
-use contour::random::Random;
+use contour::random::{Random, samples_asked};
 use contour::{Contour, generate};
 
-/// How many contours each test runs.
+/// How many contours of each kind a test runs if not said otherwise.
 const CONTOURS: u64 = 1500;
 
 /// A contour and how it is run.
@@ -53,9 +53,9 @@ fn sample(seed: u64, kind: Kind, unit: i64) -> Sample {
 
 /// The samples of one kind that can be run.
 fn samples(kind: Kind, unit: i64) -> impl Iterator<Item = Sample> {
-    let first = 1_000_000 * kind as u64;
+    let first = 100_000_000 * kind as u64;
     let fits = move |sample: &Sample| sample.contour.is_whole() && (kind == Kind::Rounded || sample.contour.is_exact());
-    (first..first + CONTOURS).map(move |seed| sample(seed, kind, unit)).filter(fits)
+    (first..first + samples_asked(CONTOURS)).map(move |seed| sample(seed, kind, unit)).filter(fits)
 }
 
 /// The shortest run of elements that still fails: what is said of it, and its program.
