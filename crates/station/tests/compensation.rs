@@ -7,12 +7,12 @@ mod watch;
 
 use base::Condition;
 use contour::claims::{Cut, Seen, check, cuts, same_path};
-use contour::measure::{Form, Vector, apart};
-use contour::program::{Bench, Corners, Job, Piece, Run, text};
-use contour::random::Random;
+use contour::measure::{Form, Vector, add, apart, left_of, minus, times};
+use contour::program::{Bench, Beside, Corners, Job, Piece, Run, text};
+use contour::random::{Random, samples_asked};
 use contour::{Contour, generate};
 
-/// How many contours each test runs.
+/// How many contours of each kind a test runs if not said otherwise.
 const CONTOURS: u64 = 1500;
 
 /// A contour and how it is run.
@@ -53,9 +53,9 @@ fn sample(seed: u64, kind: Kind, unit: i64) -> Sample {
 
 /// The samples of one kind that can be run.
 fn samples(kind: Kind, unit: i64) -> impl Iterator<Item = Sample> {
-    let first = 1_000_000 * kind as u64;
+    let first = 100_000_000 * kind as u64;
     let fits = move |sample: &Sample| sample.contour.is_whole() && (kind == Kind::Rounded || sample.contour.is_exact());
-    (first..first + CONTOURS).map(move |seed| sample(seed, kind, unit)).filter(fits)
+    (first..first + samples_asked(CONTOURS)).map(move |seed| sample(seed, kind, unit)).filter(fits)
 }
 
 /// The shortest run of elements that still fails: what is said of it, and its program.
@@ -176,6 +176,50 @@ fn the_tool_keeps_its_distance_from_rounded_arcs() {
     assert!(whole * 4 > all && seen.elements > 2000, "{whole} of {all}, {seen:?}");
 }
 
+/// The checks themselves see a path that is two millionths beside its place, at the end of any piece.
+#[test]
+fn a_path_beside_its_place_is_seen() {
+    let (bench, mut seen, mut all) = (&mut Bench::new(), 0, 0);
+    for sample in samples(Kind::Walk, 1000).chain(samples(Kind::Closed, 1000)) {
+        let Sample { contour, job } = &sample;
+        let run = bench.run(contour, *job);
+        for index in 0..run.pieces.len() {
+            let mut spoilt = run.clone();
+            let Piece { element, form: Form::Line(from, to) } = spoilt.pieces[index] else { continue };
+            // The way on and off is not judged, nor is a block before an alarm.
+            if element < 0 || element as usize >= contour.elements.len() || apart(from, to) < 1e-3 {
+                continue;
+            }
+            let aside = times(left_of(minus(to, from)), 2.1e-6 / apart(from, to));
+            spoilt.pieces[index].form = Form::Line(from, add(to, aside));
+            all += 1;
+            seen += usize::from(check(contour, *job, &spoilt).is_err());
+        }
+    }
+    assert!(seen == all && all > 5000, "{seen} of {all} are seen");
+}
+
+#[test]
+fn the_tool_keeps_its_distance_on_the_other_control() {
+    let (bench, mut failures, mut whole, mut all) = (&mut Bench::other(), Failures::default(), 0, 0);
+    let fails = |bench: &mut Bench, sample: &Sample| {
+        let run = bench.run(&sample.contour, sample.job);
+        let stranger = run.alarm.filter(|_| !run.is_interference()).map(|alarm| format!("alarm {alarm:?}"));
+        stranger.or_else(|| check(&sample.contour, sample.job, &run).err())
+    };
+    for sample in [Kind::Walk, Kind::Tangent, Kind::Closed].into_iter().flat_map(|kind| samples(kind, 1000)) {
+        let sample = Sample { job: Job { corners: Corners::Unsaid, ..sample.job }, ..sample };
+        all += 1;
+        match fails(bench, &sample) {
+            Some(why) => failures.take(why, sample),
+            None => whole += usize::from(bench.run(&sample.contour, sample.job).alarm.is_none()),
+        }
+    }
+    println!("{whole} of {all} ran to their end");
+    failures.report(bench, fails);
+    assert!(whole * 2 > all, "{whole} of {all}");
+}
+
 #[test]
 fn the_tool_keeps_its_distance_from_closed_contours() {
     let (whole, all, seen) = hold(Kind::Closed);
@@ -220,6 +264,16 @@ fn variants(sample: &Sample) -> Vec<Variant> {
         (
             "the other code with a negative radius",
             with(contour.clone(), Job { offset: -job.offset, ..other_side }),
+            |at| at,
+        ),
+        ("with the third axis", with(contour.clone(), Job { beside: Beside::Third, ..*job }), |at| at),
+        ("with lines at rapid rate", with(contour.clone(), Job { beside: Beside::Rapid, ..*job }), |at| at),
+        ("with dwells between", with(contour.clone(), Job { beside: Beside::Block("G04P10"), ..*job }), |at| at),
+        ("with codes between", with(contour.clone(), Job { beside: Beside::Block("M08"), ..*job }), |at| at),
+        ("with empty blocks between", with(contour.clone(), Job { beside: Beside::Block(""), ..*job }), |at| at),
+        (
+            "with moves beside the plane between",
+            with(contour.clone(), Job { beside: Beside::Block("G01Z1.0"), ..*job }),
             |at| at,
         ),
         ("incremental", with(contour.clone(), Job { incremental: true, ..*job }), |at| at),

@@ -1,7 +1,7 @@
 //! Closed contours against another program's offset: where nothing interferes, the tool's centre runs along what
 //! `cavalier_contours` computes in its own way. Its outside corners are arcs, as after M96.
 //!
-//! `CONTOURS` asks for more of them than CI runs.
+//! The environment can ask for more of them: CONTOURS=1000000.
 
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::disallowed_methods)]
 
@@ -14,7 +14,7 @@ use cavalier_contours::polyline::{PlineOffsetOptions, PlineSource, PlineSourceMu
 use contour::claims::{EXACTNESS, least_clearance};
 use contour::measure::{Bow, Form, leaves};
 use contour::program::{Bench, Corners, Job, text};
-use contour::random::Random;
+use contour::random::{Random, samples_asked};
 use contour::{Contour, generate};
 
 /// How many contours are compared if not said otherwise.
@@ -141,7 +141,7 @@ fn compare(bench: &mut Bench, seed: u64, tally: &mut Tally) -> Result<(), String
 
 #[test]
 fn closed_contours_without_interference_equal_another_programs_offset() {
-    let contours = std::env::var("CONTOURS").map_or(CONTOURS, |count| count.parse().expect("CONTOURS is a number"));
+    let contours = samples_asked(CONTOURS);
     let (mut tally, bench, mut failures) = (Tally::default(), &mut Bench::new(), Vec::new());
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {})); // the other program's assertions

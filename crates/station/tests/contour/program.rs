@@ -19,11 +19,13 @@ pub enum Corners {
     Arcs,
     /// M97.
     Intersections,
+    /// No code: what the control does of itself, which is intersections.
+    Unsaid,
 }
 
 /// Which two axes span the plane of a program.
-pub const PLANES: [(&str, [&str; 2], [&str; 2]); 3] =
-    [("G17", ["X", "Y"], ["I", "J"]), ("G18", ["Z", "X"], ["K", "I"]), ("G19", ["Y", "Z"], ["J", "K"])];
+pub const PLANES: [(&str, [&str; 2], [&str; 2], &str); 3] =
+    [("G17", ["X", "Y"], ["I", "J"], "Z"), ("G18", ["Z", "X"], ["K", "I"], "Y"), ("G19", ["Y", "Z"], ["J", "K"], "X")];
 const AXES: [[usize; 2]; 3] = [[0, 1], [2, 0], [1, 2]];
 
 /// How a contour is programmed.
@@ -40,12 +42,34 @@ pub struct Job {
     pub incremental: bool,
     /// An index of `PLANES`.
     pub plane: usize,
+    /// What each element's block says beside it.
+    pub beside: Beside,
+}
+
+/// What stands with each element and changes nothing of its path in the plane.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Beside {
+    Nothing,
+    /// The third axis moves with every element.
+    Third,
+    /// Lines are positioning moves.
+    Rapid,
+    /// A block like this stands behind every element.
+    Block(&'static str),
 }
 
 impl Job {
     /// The tool to the left of the path by `side` mm, to the right if it is negative; M96 or M97.
     pub fn new(side: f64, corners: Corners) -> Job {
-        Job { offset: side.abs(), right: side < 0.0, corners, inch: false, incremental: false, plane: 0 }
+        Job {
+            offset: side.abs(),
+            right: side < 0.0,
+            corners,
+            inch: false,
+            incremental: false,
+            plane: 0,
+            beside: Beside::Nothing,
+        }
     }
 
     /// How far the tool is to the left of the path, mm.
@@ -78,7 +102,7 @@ const FARTHEST: i64 = 90_000_000_000;
 
 /// The program of a contour: from beside its start onto it, along it, and off its end.
 pub fn text(contour: &Contour, job: Job) -> String {
-    let (plane, letters, centers) = PLANES[job.plane];
+    let (plane, letters, centers, third) = PLANES[job.plane];
     let forms = contour.forms();
     let (first, last) = (&forms[0], &forms[forms.len() - 1]);
     let start = job.beside(first.from(), first.tangents()[0]);
@@ -88,9 +112,13 @@ pub fn text(contour: &Contour, job: Job) -> String {
     };
     let positions = if job.incremental { "G91" } else { "G90" };
     let units = if job.inch { "G20" } else { "G21" };
-    let corners = if job.corners == Corners::Arcs { "M96" } else { "M97" };
+    let corners = match job.corners {
+        Corners::Arcs => "M96",
+        Corners::Intersections => "M97",
+        Corners::Unsaid => "",
+    };
     let on = if job.right { "G42" } else { "G41" };
-    let mut text = format!("{positions}{plane}{units}G94G40{corners}\n");
+    let mut text = format!("{positions}\n{plane}\n{units}\nG94\nG40\n{corners}\n");
     let mut at = [0, 0];
     while at != start {
         let next = [0, 1].map(|axis| at[axis] + (start[axis] - at[axis]).clamp(-FARTHEST, FARTHEST));
@@ -100,15 +128,21 @@ pub fn text(contour: &Contour, job: Job) -> String {
     let _ = writeln!(text, "{on}D01");
     let begin = contour.elements[0].from;
     let _ = writeln!(text, "G01{}F{}", way(start, begin), if job.inch { "5." } else { "127." });
-    for element in &contour.elements {
-        let end = way(element.from, element.to);
+    for (index, element) in contour.elements.iter().enumerate() {
+        let mut end = way(element.from, element.to);
+        if job.beside == Beside::Third {
+            let _ = write!(end, "{third}-{}.{}", index / 10, index % 10);
+        }
         let _ = match element.round {
-            None => writeln!(text, "G01{end}"),
+            None => writeln!(text, "{}{end}", if job.beside == Beside::Rapid { "G00" } else { "G01" }),
             Some(round) => {
                 let spoke = [0, 1].map(|axis| round.center[axis] - element.from[axis]);
                 writeln!(text, "G0{}{end}{}", if round.ccw { 3 } else { 2 }, job.words(centers, spoke))
             }
         };
+        if let Beside::Block(block) = job.beside {
+            let _ = writeln!(text, "{block}");
+        }
     }
     let off = way(contour.elements[contour.elements.len() - 1].to, end);
     let _ = writeln!(text, "G40\nG01{off}\nM30");
@@ -178,41 +212,49 @@ fn control() -> Arc<Control> {
     CONTROL.clone()
 }
 
-/// The control on an endless machine, ready to run many programs with one offset after the other.
+/// A control on an endless machine, ready to run many programs with one offset after the other.
 pub struct Bench {
     configuration: Configuration,
+    column: OffsetColumn,
 }
 
 impl Bench {
     /// As it comes.
     pub fn new() -> Bench {
-        Bench::with(Setup::default())
+        Bench::with(control(), Setup::default())
     }
 
     /// A path that cuts into an element near its own is refused.
     pub fn strict() -> Bench {
         let policies = vec![("compensation-cut".to_owned(), "refuse".to_owned())];
-        Bench::with(Setup { policies, ..Setup::default() })
+        Bench::with(control(), Setup { policies, ..Setup::default() })
     }
 
-    fn with(setup: Setup) -> Bench {
-        let configuration = Configuration::new(control(), machine("unlimited", None), &[&setup]);
-        Bench { configuration: configuration.expect("the set-up fits") }
+    /// The other control, as it comes: it knows no M96.
+    pub fn other() -> Bench {
+        Bench::with(load("incon-m84"), Setup::default())
+    }
+
+    fn with(control: Arc<Control>, setup: Setup) -> Bench {
+        let column = if control.common_offsets { OffsetColumn::Common } else { OffsetColumn::Radius };
+        let configuration = Configuration::new(control, machine("unlimited", None), &[&setup]);
+        Bench { configuration: configuration.expect("the set-up fits"), column }
     }
 
     /// Runs a text with this offset in number 1.
-    pub fn run_text(&mut self, text: &str, offset: f64, plane: usize) -> Run {
-        self.configuration.set_offset(OffsetColumn::Common, 1, offset).expect("the offset is allowed");
+    fn run_text(&mut self, text: &str, job: Job, elements: i64) -> Run {
+        self.configuration.set_offset(self.column, 1, job.offset).expect("the offset is allowed");
         let mut session = Session::new(self.configuration.clone(), Texts::one(text));
         select(&mut session, 0);
         session.start();
-        let [u, v] = AXES[plane];
+        let [u, v] = AXES[job.plane];
+        let lines = if matches!(job.beside, Beside::Block(_)) { 2 } else { 1 };
         // The block that leads onto the contour is the first one with a feed.
         let onto = text.lines().position(|line| line.contains('F')).map_or(0, |line| line as i64 + 1);
         let mut run = Run::default();
-        loop {
-            let Step::Event(event) = session.next() else { break };
-            let element = event.place.line as i64 - onto - 1;
+        while let Step::Event(event) = session.next() {
+            let behind = event.place.line as i64 - onto - 1;
+            let element = if behind < 0 { behind } else { (behind / lines).min(elements) };
             let form = match &event.kind {
                 EventKind::Rapid { from, to, .. } | EventKind::Feed { from, to, .. } => {
                     Form::line([from[u], from[v]], [to[u], to[v]])
@@ -231,6 +273,10 @@ impl Bench {
                 }
                 _ => continue,
             };
+            // The third axis alone.
+            if form.from() == form.to() && matches!(form, Form::Line(..)) {
+                continue;
+            }
             if let Some(last) = run.pieces.last() {
                 assert!(apart(last.form.to(), form.from()) == 0.0, "a gap before {form:?} in\n{text}");
             }
@@ -240,7 +286,7 @@ impl Bench {
     }
 
     pub fn run(&mut self, contour: &Contour, job: Job) -> Run {
-        self.run_text(&text(contour, job), job.offset, job.plane)
+        self.run_text(&text(contour, job), job, contour.elements.len() as i64)
     }
 }
 

@@ -1,5 +1,10 @@
 //! Random numbers that are the same in every run (SplitMix64).
 
+/// How many samples a test takes: `default`, or what the environment asks for with CONTOURS.
+pub fn samples_asked(default: u64) -> u64 {
+    std::env::var("CONTOURS").map_or(default, |count| count.parse().expect("CONTOURS is a number"))
+}
+
 pub struct Random(u64);
 
 impl Random {
