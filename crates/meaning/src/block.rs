@@ -344,6 +344,7 @@ impl Reading<'_> {
     }
 
     /// The axes that have a word in this block.
+    #[inline]
     pub fn axes_named(&self) -> Result<AxisSet, Alarm> {
         let mut named = AxisSet::NONE;
         if !self.words.has_any(self.setting.axis_letters) {

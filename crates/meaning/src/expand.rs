@@ -171,7 +171,7 @@ impl Expansion {
             return false;
         }
         match &command.body {
-            Body::Line { to, feed } => out.act = Act::Line { to: to_mm(to), feed: *feed },
+            Body::Line { to, feed } => cut(&mut out.act, to, feed),
             Body::Rapid { to, kind } => out.act = Act::Rapid { to: to_mm(to), kind: *kind },
             _ => return false,
         }
@@ -378,6 +378,12 @@ impl Expansion {
             Step::Done => None,
         }
     }
+}
+
+/// On its own, as [`Command::cut_to`] is.
+#[inline(never)]
+fn cut(act: &mut Act, to: &Point, feed: &Feed) {
+    *act = Act::Line { to: to_mm(to), feed: *feed };
 }
 
 /// An arc and the straight piece from its end to where the block ends.

@@ -22,7 +22,8 @@ impl Reading<'_> {
         match motion {
             Meaning::ArcClockwise | Meaning::ArcCounterClockwise => self.arc(motion == Meaning::ArcClockwise),
             _ => {
-                let (to, moved) = self.targets()?;
+                let mut to = [0.0; AXES];
+                let moved = self.targets(&mut to)?;
                 if moved.is_empty() {
                     return Ok(());
                 }
@@ -136,7 +137,8 @@ impl Reading<'_> {
             true => (self.last_programmed(), has_center && !has_radius),
             false => (self.next.machine, false),
         };
-        let (to, moved) = self.targets()?;
+        let mut to = [0.0; AXES];
+        let moved = self.targets(&mut to)?;
         let units = self.units;
         let control = self.control();
         let transform = self.next.transform;

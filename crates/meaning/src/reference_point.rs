@@ -93,7 +93,8 @@ impl Reading<'_> {
             }
         }
         let via = self.next.machine;
-        let (to, moved) = self.targets_of(axes)?;
+        let mut to = [0.0; base::AXES];
+        let moved = self.targets_of(axes, &mut to)?;
         self.now_known = self.now_known.or(moved);
         self.next.machine = to;
         self.command.body = Body::Via { via, to, stops: true };
@@ -120,7 +121,8 @@ impl Reading<'_> {
         if self.command.side != Side::Off || !by_place && axes.iter().any(offset) {
             return Err(self.one_shot_alarm(Condition::ReferenceCheckWithOffset));
         }
-        let (to, moved) = self.targets()?;
+        let mut to = [0.0; base::AXES];
+        let moved = self.targets(&mut to)?;
         let [metric, _, rotary] = self.control().increments;
         let beside = axes.iter().find(|&axis| {
             let turns = self.setting.facts.axes.get(axis).is_some_and(|facts| facts.rotary);

@@ -14,7 +14,8 @@ impl Reading<'_> {
     /// G31: as G01, until the signal.
     pub fn skip(&mut self) -> Result<(), Alarm> {
         self.refuse_skip_in_compensation()?;
-        let (to, moved) = self.targets()?;
+        let mut to = [0.0; AXES];
+        let moved = self.targets(&mut to)?;
         if moved.is_empty() {
             return Ok(());
         }

@@ -73,24 +73,26 @@ impl Reading<'_> {
         transform.rotation.on || self.next.polar.on || !transform.apart.is_empty()
     }
 
-    /// These axes at the targets of their words; every axis' target and the axes that move.
+    /// Writes every axis' target to `to`, these axes' where their words lead; returns the axes that move.
     #[inline]
-    pub fn targets_of(&mut self, named: AxisSet) -> Result<(Point, AxisSet), Alarm> {
+    pub fn targets_of(&mut self, named: AxisSet, to: &mut Point) -> Result<AxisSet, Alarm> {
         if self.goes_together() {
             let together = self.targets_together(named)?;
-            return Ok((together.to, together.moved));
+            *to = together.to;
+            return Ok(together.moved);
         }
-        let mut to = self.next.machine;
+        *to = self.next.machine;
         for axis in named.iter() {
             to[axis] = self.target(axis)?;
         }
-        Ok((to, named))
+        Ok(named)
     }
 
-    /// Every named axis at its target, and the length axis moved by a changed offset if it has no word of its own.
-    pub fn targets(&mut self) -> Result<(Point, AxisSet), Alarm> {
+    /// Writes to `to` every named axis' target, and the length axis moved by a changed offset if it has no word of its
+    /// own; returns the axes that move.
+    pub fn targets(&mut self, to: &mut Point) -> Result<AxisSet, Alarm> {
         let named = self.axes_named()?;
-        let (mut to, mut moved) = self.targets_of(named)?;
+        let mut moved = self.targets_of(named, to)?;
         let at_once = self.setting.fitting.policies.length_without_z == LengthWithoutZ::AtOnce;
         let changes = self.words.has(b'H') || self.groups_written & (1 << self.control().roles.length) != 0;
         if self.length_change != 0.0
@@ -103,7 +105,7 @@ impl Reading<'_> {
             moved.add(axis);
             self.next.length_due = 0.0;
         }
-        Ok((to, moved))
+        Ok(moved)
     }
 
     #[cold]
@@ -139,7 +141,8 @@ impl Reading<'_> {
     pub fn row_of_holes(&mut self, named: AxisSet, count: u32) -> Result<Places, Alarm> {
         let mut step = [0.0; base::AXES];
         if !self.goes_together() {
-            let (first, _) = self.targets_of(named)?;
+            let mut first = [0.0; base::AXES];
+            self.targets_of(named, &mut first)?;
             for axis in named.iter() {
                 if !self.absolute {
                     step[axis] = first[axis] - self.next.machine[axis];
@@ -189,7 +192,9 @@ impl Reading<'_> {
     /// Where an axis' word leads as the intermediate point on the way to a reference point.
     pub fn via_targets(&mut self, named: AxisSet) -> Result<Point, Alarm> {
         if self.setting.fitting.policies.reference_via == ReferenceVia::Transformed {
-            return self.targets_of(named).map(|(to, _)| to);
+            let mut via = [0.0; base::AXES];
+            self.targets_of(named, &mut via)?;
+            return Ok(via);
         }
         let mut via = self.next.machine;
         for axis in named.iter() {

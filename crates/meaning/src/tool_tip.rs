@@ -112,7 +112,8 @@ impl Reading<'_> {
         // The other words are read as for a tool that stands upright.
         self.next.machine = counts(&upright_from);
         self.not_axes = letter_bit(TILTS[0]) | letter_bit(TILTS[1]) | letter_bit(TURN);
-        let (mut to, mut moved) = self.targets()?;
+        let mut to = [0.0; AXES];
+        let mut moved = self.targets(&mut to)?;
         self.not_axes = 0;
         if let Some(angles) = direction {
             for (axis, angle) in [tip.tilt, tip.turn].map(usize::from).into_iter().zip(angles) {

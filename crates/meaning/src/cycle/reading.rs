@@ -106,7 +106,8 @@ impl Reading<'_> {
         if let (Some(drilling), true) = (self.setting.length_axis, cycle.is_some()) {
             named = named.without(base::AxisSet::only(drilling));
         }
-        let (level, moved) = self.targets_of(named)?;
+        let mut level = [0.0; base::AXES];
+        let moved = self.targets_of(named, &mut level)?;
         self.now_known = self.now_known.or(moved);
         let transform = self.next.transform;
         let wrong = |condition, letter| match self.words.has(letter) {

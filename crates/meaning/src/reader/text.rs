@@ -26,9 +26,9 @@ impl Reader {
     /// Reads the next block from its text, and compiles and keeps it if statements or variables stand in it, or if it
     /// stands in a loop or macro. Of a tape it also says what is wrong with the block's rows.
     pub(super) fn read_text(&mut self, frame: &Frame, unsound: &mut Option<Unsound>) -> Result<Option<u32>, Text> {
-        let Frame { source, cursor, .. } = *frame;
+        let (source, cursor) = (frame.source, &frame.cursor);
         let mut view = self.supply.view(source, cursor.offset);
-        match read_block(view.characters, view.last, cursor, &self.setting.control.grammar, &mut self.block) {
+        match read_block(view.characters, view.last, *cursor, &self.setting.control.grammar, &mut self.block) {
             Outcome::More => return Err(Text::More),
             Outcome::End => return Err(Text::End),
             Outcome::Block => {}
