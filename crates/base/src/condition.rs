@@ -269,6 +269,8 @@ conditions! {
     CompensatedPathReversed = "compensated-path-reversed",
     /// The tool's centre would not close a full circle. Values: the gap.
     CompensatedCircleOpen = "compensated-circle-open",
+    /// The tool's centre would go more than once round. Values: by how much, the tool's radius.
+    CompensatedCircleOverlaps = "compensated-circle-overlaps",
     /// The tool's paths along two elements do not meet inside their corner. Values: the tool's radius.
     CompensatedPathsApart = "compensated-paths-apart",
     /// Beside an element near this one the tool would cut into it. Values: by how much, the tool's radius.

@@ -14,11 +14,13 @@ mod interference;
 mod intersection;
 mod vector;
 
+use std::f64::consts::TAU;
+
 use dialect::{CompensationCut, CompensationRestart, CompensationRules, CompensationStart};
 use meaning::Offset;
 
-pub(crate) use corner::Join;
 pub use corner::{Corner, TANGENT_MM};
+pub(crate) use corner::{Join, sweep_round};
 pub(crate) use edge::Edge;
 use gouge::{Cut, Neighbours, cut};
 pub use interference::BACKWARDS_MM;
@@ -193,7 +195,8 @@ impl Compensation {
                     .map_err(|fault| (Which::This, fault))?;
             }
             if now.edge.is_arc() {
-                plan.sweep = now.edge.sweep_beside(vectors);
+                // More than a turn is judged, but for what rounding adds and where nothing is judged.
+                plan.sweep = now.edge.sweep_beside(vectors).clamp(-TAU, TAU);
             }
         }
         Ok(())

@@ -246,6 +246,7 @@ fn alarm_of(fault: Fault, command: &Command, axes: [u8; 2], tool: f64) -> Alarm 
         Fault::EndsByArc => (Condition::ArcEndsCompensation, [0.0; 3]),
         Fault::InnerArc(radius) => (Condition::InnerArcTooSmall, [radius, tool, 0.0]),
         Fault::Reversed(way) => (Condition::CompensatedPathReversed, [way, tool, 0.0]),
+        Fault::Overlaps(way) => (Condition::CompensatedCircleOverlaps, [way, tool, 0.0]),
         Fault::Open(gap) => (Condition::CompensatedCircleOpen, [gap, tool, 0.0]),
         Fault::Apart => (Condition::CompensatedPathsApart, [tool, 0.0, 0.0]),
         Fault::Cut(depth) => (Condition::ElementCut, [depth, tool, 0.0]),

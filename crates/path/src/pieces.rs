@@ -5,7 +5,7 @@ use base::Point;
 use meaning::{Act, Element, Feed, Offset, Operation, RapidKind};
 
 use crate::arc::Arc;
-use crate::compensation::{Corner, Edge, Join, Plan, Vector, angle, less};
+use crate::compensation::{Corner, Edge, Join, Plan, Vector, less, sweep_round};
 use crate::shape::{COUNTS, Part, RunBeside, Shape, Shaped};
 
 /// A piece shorter than this, mm, has no length: rounding made it.
@@ -155,7 +155,7 @@ impl Carried<'_> {
     /// The arc about a corner, from one foot to the other, away from the tool's side.
     fn arc_round(&self, from: &Point, to: &Point, join: &Join, corner: Vector) -> Arc {
         let [first, second] = [0, 1].map(|place| join.places().get(place).copied().unwrap_or_default());
-        let sweep = angle(first, second).abs().copysign(-self.offset.radius);
+        let sweep = sweep_round(first, second, self.offset.radius);
         self.arc_about(corner.map(|counts| counts / COUNTS), from, to, sweep)
     }
 

@@ -2,7 +2,7 @@
 
 use super::edge::Edge;
 use super::intersection::Bend;
-use super::vector::{NONE, Vector, add, cross, dot, left, length, times};
+use super::vector::{NONE, Vector, add, angle, cross, dot, left, length, times};
 
 /// Feet of the two normals nearer to each other than this, mm, are one: the elements are tangent.
 pub const TANGENT_MM: f64 = 1e-6;
@@ -99,6 +99,11 @@ pub(crate) fn join(first: &Edge, second: &Edge, s: f64, round: bool, join: &mut 
         Corner::Outside => *join = outside(first, second, &bend, s, round),
     }
     true
+}
+
+/// The angle by which an arc about an outside corner turns from one foot to the other: away from the tool's side.
+pub(crate) fn sweep_round(first: Vector, second: Vector, s: f64) -> f64 {
+    angle(first, second).abs().copysign(-s)
 }
 
 /// Round an outside corner: on an arc, or along the elements' tangents to where they meet, if that is not too far.

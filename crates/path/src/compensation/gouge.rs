@@ -1,7 +1,7 @@
 //! Whether the tool, beside one element, cuts into another: the one before, the next one, or the one behind that.
 //! Everything is counted from the end of the element being run.
 
-use super::corner::Join;
+use super::corner::{Join, sweep_round};
 use super::edge::Edge;
 use super::vector::{NONE, Vector, add, cross, less, times};
 use crate::clearance::Curve;
@@ -24,7 +24,7 @@ pub(crate) fn cut(near: &Neighbours, start: Vector, corner: &Join, s: f64) -> Op
     let Neighbours { before, now, next, after } = *near;
     let bends = |edge: &Edge| edge.is_arc();
     let depth = |edge: &Edge, other: Curve| {
-        let nearest = pieces(now, start, corner).map(|piece| piece.distance(&other)).fold(f64::INFINITY, f64::min);
+        let nearest = pieces(now, start, corner, s).map(|piece| piece.distance(&other)).fold(f64::INFINITY, f64::min);
         Some(s.abs() - nearest).filter(|depth| *depth > CUT_MM + unround(now) + unround(edge))
     };
     if let Some(next) = next {
@@ -51,10 +51,10 @@ pub(crate) fn cut(near: &Neighbours, start: Vector, corner: &Join, s: f64) -> Op
 }
 
 /// The path beside an element that ends at zero, and the way round the corner there.
-fn pieces(edge: &Edge, start: Vector, corner: &Join) -> impl Iterator<Item = Curve> {
+fn pieces(edge: &Edge, start: Vector, corner: &Join, s: f64) -> impl Iterator<Item = Curve> {
     let round = move |pair: &[Vector]| match pair {
         [first, second] if corner.round => {
-            Curve::Arc { center: NONE, spoke: *first, sweep: super::vector::angle(*first, *second) }
+            Curve::Arc { center: NONE, spoke: *first, sweep: sweep_round(*first, *second, s) }
         }
         [first, second] => Curve::Line([*first, *second]),
         _ => Curve::Line([NONE; 2]),

@@ -1,5 +1,7 @@
 //! What must not be run: an element that the tool does not fit beside.
 
+use std::f64::consts::TAU;
+
 use dialect::CompensationRules;
 
 use super::edge::Edge;
@@ -19,6 +21,8 @@ pub(crate) enum Fault {
     InnerArc(f64),
     /// The centre would run backwards by this much.
     Reversed(f64),
+    /// The centre would go all the way round and on by this much.
+    Overlaps(f64),
     /// A full circle that does not close by this much.
     Open(f64),
     /// The paths beside this element and the one before do not meet.
@@ -52,6 +56,9 @@ pub(crate) fn judge(edge: &Edge, vectors: [Vector; 2], rules: &CompensationRules
     let radius = (1.0 / edge.curvature[1].abs()).max(BACKWARDS_MM);
     if sweep * radius < -BACKWARDS_MM {
         return Err(Fault::Reversed(-sweep * radius));
+    }
+    if (sweep - TAU) * radius > BACKWARDS_MM {
+        return Err(Fault::Overlaps((sweep - TAU) * radius));
     }
     let gap = length(less(vectors[1], vectors[0]));
     if edge.full_circle && rules.circles_close && gap > BACKWARDS_MM {
