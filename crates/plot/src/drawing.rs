@@ -60,6 +60,13 @@ impl Drawing {
         }
     }
 
+    /// A programmed way before or behind a refused one.
+    pub fn refused_among(&mut self, way: &Stroke) {
+        if let Some(piece) = piece_of(way) {
+            self.layers.refused_among(&piece);
+        }
+    }
+
     /// The tool runs along a stroke, beside a contour of this plane.
     pub fn swept(&mut self, stroke: &Stroke, plane: Plane, radius_mm: f64) {
         if let Some(piece) = piece_of(stroke).filter(|_| is_drawable(&[radius_mm])) {

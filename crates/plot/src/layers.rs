@@ -102,8 +102,13 @@ impl Layers {
     /// A programmed way.
     pub fn programmed(&mut self, piece: &Piece) {
         if self.shows(Layer::Programmed) {
-            self.programmed.push(&Piece { feed: 0.0, ..*piece });
+            self.refused_among(piece);
         }
+    }
+
+    /// A programmed way near a refused one: it is drawn whatever layers are.
+    pub fn refused_among(&mut self, piece: &Piece) {
+        self.programmed.push(&Piece { feed: 0.0, ..*piece });
     }
 
     /// The tool moves, beside a contour of this plane.
@@ -131,10 +136,11 @@ impl Layers {
 
     /// What is to be drawn.
     pub fn drawn(&self) -> DrawnLayers<'_> {
+        let programmed = self.programmed.drawn().pieces;
         DrawnLayers {
             path: self.shows(Layer::Compensated),
-            is_named: self.shown != [Layer::Compensated],
-            programmed: self.programmed.drawn().pieces,
+            is_named: self.shown != [Layer::Compensated] || !programmed.is_empty(),
+            programmed,
             swept: self.swept.drawn().pieces,
             radii: self.swept.survey.feeds.named().to_vec(),
             places: &self.places,

@@ -76,7 +76,9 @@ impl Entry {
 
     fn width(&self) -> f64 {
         let beside = if matches!(self, Entry::Scale(..)) { BAR } else { self.sample() };
-        beside + 10.0 + width(&self.text(), SIZE)
+        // A name stands close to what it names.
+        let before = if matches!(self, Entry::Path) { -BETWEEN * 0.6 } else { 10.0 };
+        beside + before + width(&self.text(), SIZE)
     }
 }
 

@@ -43,7 +43,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
         control: control.title.clone(),
         machine: machine.name.clone(),
     };
-    let (mut tool, mut alarmed) = (0, false);
+    let (mut tool, mut alarmed, mut runs_along) = (0, false, false);
     run_through(&mut session, arguments.setting.repeat, |session, event| {
         let position = strokes.at(session.position());
         let drawing = drawing.get_or_insert_with(|| {
@@ -53,10 +53,16 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
         });
         if let Some(stroke) = strokes.of_event(&event.kind, tool) {
             drawing.stroke(&stroke);
-            strokes.beside(drawing, session.beside(), &event.kind, &stroke);
+            runs_along |= strokes.beside(drawing, session.beside(), &event.kind, &stroke);
+        }
+        if event.kind == EventKind::BlockDone && !std::mem::take(&mut runs_along) {
+            // Beside an arc as large as the tool nothing moves.
+            let block = session.interpreter().executing();
+            let ways = block.into_iter().flat_map(|block| strokes.ways_of(block, session.position()));
+            ways.for_each(|way| drawing.programmed(&way));
         }
         if let EventKind::Alarm(alarm) = &event.kind {
-            strokes.refused(drawing, session.beside(), alarm, session.position());
+            strokes.refused(drawing, session, alarm);
         }
         let mut mark = |kind, text: String| drawing.mark(Mark { at: position, kind, text });
         match &event.kind {

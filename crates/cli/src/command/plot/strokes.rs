@@ -2,10 +2,13 @@
 
 use base::{Alarm, Condition, Point};
 use machine::{EventKind, MachineFile};
-use path::{Programmed, RunBeside};
+use meaning::{Command, Element, Offset};
+use path::{Corner, Part, Programmed, RunBeside};
 use plot::{Arc, Drawing, Kind, Layer, Plane, Stroke};
+use station::Session;
 
 use crate::arguments::LayerArgument;
+use crate::texts::Texts;
 
 /// The layer that an argument names.
 pub fn layer(argument: LayerArgument) -> Layer {
@@ -65,23 +68,40 @@ impl<'m> Strokes<'m> {
         }
     }
 
-    /// Draws what a move runs beside.
-    pub fn beside(&self, drawing: &mut Drawing, beside: Option<&RunBeside>, event: &EventKind, stroke: &Stroke) {
-        let Some(beside) = beside else { return };
+    /// Draws what a move runs beside; true if that is the programmed way of its block.
+    pub fn beside(&self, drawing: &mut Drawing, beside: Option<&RunBeside>, event: &EventKind, stroke: &Stroke) -> bool {
+        let Some(beside) = beside else { return false };
         drawing.swept(stroke, plane_of(beside.plane), beside.radius.abs());
         let (from, to) = match event {
             EventKind::Rapid { from, to, .. } | EventKind::Feed { from, to, .. } => (from, to),
             EventKind::Arc { arc, .. } => (&arc.from, &arc.to),
-            _ => return,
+            _ => return false,
         };
-        if let Some(way) = beside.programmed(from, to) {
-            drawing.programmed(&self.of_way(&way, stroke.kind));
-        }
+        let way = beside.programmed(from, to);
+        way.inspect(|way| drawing.programmed(&self.of_way(way, stroke.kind))).is_some()
     }
 
-    /// Draws what the tool, which stands here, does not fit beside.
-    pub fn refused(&self, drawing: &mut Drawing, beside: Option<&RunBeside>, alarm: &Alarm, stands: &Point) {
-        let Some(beside) = beside else { return };
+    /// The programmed ways of a block under compensation; the tool stands here.
+    pub fn ways_of(&self, command: &Command, stands: &Point) -> impl Iterator<Item = Stroke> {
+        let parts = command.offset().map_or(0, |_| command.parts());
+        (0..parts).filter_map(move |part| {
+            let Offset { radius, plane, axes, .. } = command.offset()?;
+            let mut way = Element::default();
+            let way = command.element(axes, part, &mut way).then_some(way);
+            let beside = RunBeside { part: Part::Along, radius, corner: Corner::None, way, plane, axes };
+            beside.programmed(stands, stands).map(|way| self.of_way(&way, Kind::Feed))
+        })
+    }
+
+    /// Draws what the tool does not fit beside, and the contour that the control has read about it.
+    pub fn refused(&self, drawing: &mut Drawing, session: &mut Session<Texts>, alarm: &Alarm) {
+        let Some(beside) = session.beside().copied() else { return };
+        let (beside, stands) = (&beside, &session.position().clone());
+        let mut index = 0;
+        while let Ok(Some(command)) = session.interpreter_mut().look_ahead(index) {
+            self.ways_of(command, stands).for_each(|way| drawing.refused_among(&way));
+            index += 1;
+        }
         let Some(way) = beside.programmed(stands, stands) else { return };
         let touches = match alarm.condition {
             Condition::InnerArcTooSmall | Condition::CompensatedPathReversed => way.touched(beside, 0.5),
