@@ -43,7 +43,7 @@ pub enum Command {
     )]
     Operate(OperateArguments),
     /// Draw the tool path as SVG or PNG
-    #[command(after_help = "Example:\n  cyclestart plot part.nc -o part.svg")]
+    #[command(after_help = "Examples:\n  cyclestart plot part.nc -o part.svg\n  cyclestart plot part.nc --layers programmed,compensated,tool -o part.svg")]
     Plot(PlotArguments),
     /// Read images of punched tape (EIA RS-244, ISO 840) to text, and punch text
     #[command(subcommand)]
@@ -209,6 +209,17 @@ pub struct OperateArguments {
     pub setting: SettingArguments,
 }
 
+/// A layer of a picture.
+#[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LayerArgument {
+    /// The programmed contour of blocks under tool radius compensation
+    Programmed,
+    /// The path that runs, that of the tool's centre under compensation
+    Compensated,
+    /// Under compensation the tool at the ends of its moves, and the area that it sweeps
+    Tool,
+}
+
 /// `plot`
 #[derive(Args, Debug)]
 pub struct PlotArguments {
@@ -217,6 +228,9 @@ pub struct PlotArguments {
     /// The picture to write: its ending, .svg or .png, says which kind
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
+    /// What is drawn, as in programmed,compensated,tool; what the tool does not fit beside is always marked
+    #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',', default_value = "compensated")]
+    pub layers: Vec<LayerArgument>,
     /// Width of a PNG in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(200..=8000))]
     pub width: u32,

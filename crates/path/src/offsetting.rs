@@ -2,11 +2,11 @@
 //! comes out piece by piece.
 
 use base::{Alarm, Condition, Point};
-use meaning::{Act, Barrier, Command, Element, Interpreter};
+use meaning::{Act, Barrier, Command, Element, Interpreter, Offset};
 
-use crate::compensation::{Beside, Compensation, Fault, Join, Next, NextKind, Plan, Rules, Vector, Which};
+use crate::compensation::{Beside, Compensation, Corner, Fault, Join, NONE, Next, NextKind, Plan, Rules, Vector, Which};
 use crate::pieces::{Carried, Pieces};
-use crate::shape::Shaped;
+use crate::shape::{Part, RunBeside, Shaped};
 
 /// Blocks without a way in the plane that the look ahead passes over; more of them make the tool stop.
 const BRIDGED: u8 = 1;
@@ -20,6 +20,8 @@ pub(crate) enum Taken {
     Nothing,
     /// It runs as it is, beside its programmed place by the tool's vector.
     AsItIs,
+    /// It leads from beside the path to its programmed end.
+    LeadsBack,
     /// Its block is refused.
     Refused,
 }
@@ -41,6 +43,8 @@ pub(crate) struct Offsetting {
     after: Next,
     /// The refusal.
     alarm: Option<Alarm>,
+    /// How the way back to the path follows from that, or the way that the tool does not fit beside.
+    beside: Option<RunBeside>,
 }
 
 /// A way with what follows it.
@@ -111,9 +115,16 @@ impl Offsetting {
             return Ok(Taken::AsItIs);
         }
         let Some(offset) = offset else {
+            let stood_beside = self.compensation.vector() != NONE;
             self.compensation.cancel();
             if element.turn.is_none() {
-                return Ok(Taken::AsItIs);
+                if !stood_beside {
+                    return Ok(Taken::AsItIs);
+                }
+                let Offset { radius, plane, .. } = self.ahead.way.offset;
+                let (part, corner) = (Part::Cancel, Corner::None);
+                self.beside = Some(RunBeside { part, radius, corner, way: Some(element), plane, axes });
+                return Ok(Taken::LeadsBack);
             }
             self.alarm = Some(alarm_of(Fault::EndsByArc, command, axes, 0.0));
             return Ok(Taken::Refused);
@@ -135,11 +146,16 @@ impl Offsetting {
         match self.run(upstream, &element, behind, position, shaped) {
             Ok(true) => Ok(Taken::Piece),
             Ok(false) => Ok(Taken::Nothing),
-            Err((index, fault)) => {
-                let radius = self.ahead.way.offset.radius.abs();
+            Err((at, fault)) => {
+                let Offset { radius, plane, .. } = self.ahead.way.offset;
                 self.compensation.pass(&self.ahead.way);
                 self.is_known = false;
-                self.alarm = upstream.look_ahead(index)?.map(|command| alarm_of(fault, command, axes, radius));
+                if let Some(command) = upstream.look_ahead(at.index)? {
+                    let way = command.element(axes, at.part, &mut element).then_some(element);
+                    self.alarm = Some(alarm_of(fault, command, axes, radius.abs()));
+                    let (part, corner) = (Part::Along, Corner::None);
+                    self.beside = Some(RunBeside { part, radius, corner, way, plane, axes });
+                }
                 Ok(Taken::Refused)
             }
         }
@@ -148,7 +164,7 @@ impl Offsetting {
     /// Runs the way at hand, if it and the next one can be run; false if it has no length.
     ///
     /// # Errors
-    /// The place in the buffer of the block that is at fault.
+    /// The place in the buffer of the way that is at fault.
     fn run(
         &mut self,
         upstream: &Interpreter,
@@ -156,7 +172,8 @@ impl Offsetting {
         behind: At,
         position: &mut Point,
         shaped: &mut Shaped,
-    ) -> Result<bool, (usize, Fault)> {
+    ) -> Result<bool, (At, Fault)> {
+        let this = At { index: 0, part: self.part.saturating_sub(1), block: self.block };
         let Offsetting { compensation, ahead, is_known, plan, pieces, after, .. } = self;
         let policies = &upstream.fitting().policies;
         let rules = Rules {
@@ -167,16 +184,16 @@ impl Offsetting {
         };
         let Ahead { way, end, next, at, .. } = ahead;
         let place = |(which, fault)| match which {
-            Which::This => (0, fault),
-            Which::Next => (at.index, fault),
-            Which::After => (behind.index, fault),
+            Which::This => (this, fault),
+            Which::Next => (*at, fault),
+            Which::After => (behind, fault),
         };
         compensation.plan(way, next, is_known.then_some(&*end), &rules, plan).map_err(place)?;
         compensation.look_about(way, plan, (next, after), &rules).map_err(place)?;
         *is_known = false;
         if let Some(beside) = next.element() {
             let fits = Compensation::look_past(way, plan, beside, after, &rules, end);
-            *is_known = fits.map_err(|fault| (at.index, fault))? && after.kind != NextKind::Unseen;
+            *is_known = fits.map_err(|fault| (*at, fault))? && after.kind != NextKind::Unseen;
         }
         let certain = !compensation.is_doubtful();
         compensation.take(way, plan, next);
@@ -201,6 +218,11 @@ impl Offsetting {
     /// The refusal of the operation taken last.
     pub fn take_alarm(&mut self) -> Option<Alarm> {
         self.alarm.take()
+    }
+
+    /// How the way back to the path, or the way that is refused, follows from the programmed one.
+    pub fn take_beside(&mut self) -> Option<RunBeside> {
+        self.beside.take()
     }
 }
 

@@ -70,7 +70,8 @@ pub struct Shaped {
     pub stroke_check: bool,
     /// False if an earlier refusal makes its place doubtful (only while checking on).
     pub certain: bool,
-    /// How it follows from the programmed path, if it runs beside that.
+    /// How it follows from the programmed path, if it runs beside that; with an alarm, the way that the tool does not fit
+    /// beside.
     pub beside: Option<RunBeside>,
 }
 
@@ -133,6 +134,36 @@ pub enum Programmed {
     Line(Point, Point),
     /// An arc.
     Arc(Arc),
+}
+
+impl Programmed {
+    /// Where a tool of this radius (mm, positive left) touches it: its middle, at a fraction of the way.
+    pub fn touched(&self, beside: &RunBeside, fraction: f64) -> Point {
+        let [first, second] = beside.axes.map(usize::from);
+        let (mut point, at) = match self {
+            Programmed::Line(from, to) => {
+                let point: Point = std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * fraction);
+                let along = |axis: usize| to.get(axis).zip(from.get(axis)).map_or(0.0, |(to, from)| to - from);
+                let length = libm::hypot(along(first), along(second)).max(f64::MIN_POSITIVE);
+                let normal = [-along(second) / length, along(first) / length];
+                let on = |axis: usize| point.get(axis).copied().unwrap_or(0.0);
+                (point, [0, 1].map(|index| on([first, second][index]) + beside.radius * normal[index]))
+            }
+            Programmed::Arc(arc) => {
+                let point: Point = std::array::from_fn(|axis| arc.from[axis] + (arc.to[axis] - arc.from[axis]) * fraction);
+                let radius = arc.radius[0] + (arc.radius[1] - arc.radius[0]) * fraction;
+                let away = radius - beside.radius * arc.sweep.signum();
+                let (sin, cos) = libm::sincos(arc.start_angle + arc.sweep * fraction);
+                (point, [arc.center[0] + away * cos, arc.center[1] + away * sin])
+            }
+        };
+        for (axis, at) in [first, second].into_iter().zip(at) {
+            if let Some(place) = point.get_mut(axis) {
+                *place = at;
+            }
+        }
+        point
+    }
 }
 
 impl Default for Shaped {

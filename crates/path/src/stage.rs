@@ -76,7 +76,11 @@ impl Path {
                 && let Some(alarm) = offsetting.take_alarm()
             {
                 shaped.shape = Shape::Alarm(alarm);
+                shaped.beside = offsetting.take_beside();
                 return Pull::Item(shaped);
+            }
+            if taken == Taken::LeadsBack {
+                shaped.beside = offsetting.take_beside();
             }
             if is_shape {
                 return Pull::Item(shaped);

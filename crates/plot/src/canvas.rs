@@ -13,6 +13,8 @@ const FONT: &str = "'DejaVu Sans', sans-serif";
 /// An SVG document being written.
 pub(crate) struct Canvas {
     out: String,
+    /// The rectangles to which something has been clipped; each has its number as its name.
+    clips: Vec<Rect>,
 }
 
 impl Canvas {
@@ -24,7 +26,7 @@ impl Canvas {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" font-family=\"{FONT}\" fill=\"none\">"
         );
-        Canvas { out }
+        Canvas { out, clips: Vec::new() }
     }
 
     /// The finished document.
@@ -41,6 +43,19 @@ impl Canvas {
     /// Begins a group with these attributes.
     pub fn open(&mut self, attributes: &str) {
         let _ = writeln!(self.out, "<g {attributes}>");
+    }
+
+    /// Begins a group with these attributes of which nothing is seen outside a rectangle.
+    pub fn open_clipped(&mut self, to: &Rect, attributes: &str) {
+        let known = self.clips.iter().position(|clip| clip == to);
+        let number = known.unwrap_or(self.clips.len());
+        if known.is_none() {
+            self.clips.push(*to);
+            self.out.push_str(&format!("<clipPath id=\"clip{number}\">\n"));
+            self.rect(to, "");
+            self.out.push_str("</clipPath>\n");
+        }
+        self.open(&format!("clip-path=\"url(#clip{number})\" {attributes}"));
     }
 
     /// Ends the group.

@@ -16,6 +16,11 @@ pub(crate) const AXIS: &str = "#8b949e";
 pub(crate) const GRID: &str = "#e2e6ea";
 /// Rapid moves.
 pub(crate) const RAPID: &str = "#8a95a1";
+/// The programmed contour.
+pub(crate) const CONTOUR: &str = INK;
+/// The tool, and the area that it sweeps.
+pub(crate) const TOOL: &str = "#c07f10";
+pub(crate) const SWEPT: &str = "#fcf0d6";
 /// Alarms, the only red on the sheet.
 pub(crate) const ALARM: &str = "#c2121f";
 /// The paper.

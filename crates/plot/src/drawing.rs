@@ -1,11 +1,12 @@
 //! The drawing as the caller sees it: strokes and marks go in, a picture comes out.
 
 use crate::kept::KeptPath;
+use crate::layers::{Layer, Layers};
 use crate::mark::Mark;
 use crate::piece::Piece;
 use crate::png::{PngError, png};
 use crate::sheet::{Content, sheet};
-use crate::stroke::{Kind, Stroke, is_drawable};
+use crate::stroke::{Kind, Plane, Stroke, is_drawable};
 use crate::survey::Survey;
 
 /// More marks than this are not drawn.
@@ -29,26 +30,56 @@ pub struct Drawing {
     survey: Survey,
     path: KeptPath,
     marks: Vec<Mark>,
+    layers: Layers,
 }
 
 impl Drawing {
     /// An empty drawing with a title.
     pub fn new(title: Title) -> Drawing {
-        Drawing { title, survey: Survey::new(), path: KeptPath::new(), marks: Vec::new() }
+        Drawing { title, survey: Survey::new(), path: KeptPath::new(), marks: Vec::new(), layers: Layers::new() }
     }
 
     /// Draws one move. A stroke with a coordinate that is not a number, or is beyond 1000 km, is ignored.
     /// A move without length draws nothing.
     pub fn stroke(&mut self, stroke: &Stroke) {
-        if !stroke.is_drawable() || (stroke.from == stroke.to && stroke.arc.is_none()) {
-            return;
+        if let Some(piece) = piece_of(stroke) {
+            self.survey.note(&piece, stroke.tool);
+            self.path.push(&piece, &self.survey);
         }
-        let cuts = stroke.kind == Kind::Feed && stroke.feed.is_finite();
-        let feed = if cuts { stroke.feed.max(0.0) } else { 0.0 };
-        let arc = stroke.arc.filter(|arc| arc.sweep_deg != 0.0);
-        let piece = Piece { kind: stroke.kind, from: stroke.from, to: stroke.to, arc, feed };
-        self.survey.note(&piece, stroke.tool);
-        self.path.push(&piece, &self.survey);
+    }
+
+    /// Only these layers are drawn; the path that runs if nothing is said. Call it before anything comes in.
+    pub fn show(&mut self, layers: &[Layer]) {
+        self.layers.show(layers);
+    }
+
+    /// A programmed way, beside which the tool runs.
+    pub fn programmed(&mut self, way: &Stroke) {
+        if let Some(piece) = piece_of(way) {
+            self.layers.programmed(&piece);
+        }
+    }
+
+    /// A programmed way before or behind a refused one.
+    pub fn refused_among(&mut self, way: &Stroke) {
+        if let Some(piece) = piece_of(way) {
+            self.layers.refused_among(&piece);
+        }
+    }
+
+    /// The tool runs along a stroke, beside a contour of this plane.
+    pub fn swept(&mut self, stroke: &Stroke, plane: Plane, radius_mm: f64) {
+        if let Some(piece) = piece_of(stroke).filter(|_| is_drawable(&[radius_mm])) {
+            self.layers.swept(&piece, plane, radius_mm);
+        }
+    }
+
+    /// The tool does not fit beside a programmed way, as is seen where its middle stands at `tool`. It is drawn whatever
+    /// layers are.
+    pub fn refused(&mut self, way: &Stroke, plane: Plane, tool: [f64; 3], radius_mm: f64) {
+        if let Some(piece) = piece_of(way).filter(|_| is_drawable(&[radius_mm]) && is_drawable(&tool)) {
+            self.layers.refused(&piece, plane, tool, radius_mm);
+        }
     }
 
     /// Adds a mark. One whose place is not a number is ignored.
@@ -61,11 +92,23 @@ impl Drawing {
     /// The sheet as SVG: well-formed, the same bytes for the same strokes and marks.
     pub fn svg(&self) -> String {
         let drawn = self.path.drawn(&self.survey);
-        sheet(&Content { title: &self.title, survey: &self.survey, drawn: &drawn, marks: &self.marks })
+        let layers = self.layers.drawn();
+        sheet(&Content { title: &self.title, survey: &self.survey, drawn: &drawn, marks: &self.marks, layers })
     }
 
     /// The sheet as PNG, so many pixels wide (1 to [`WIDEST_PX`](crate::WIDEST_PX)); the height follows.
     pub fn png(&self, width_px: u32) -> Result<Vec<u8>, PngError> {
         png(&self.svg(), width_px)
     }
+}
+
+/// A stroke as it is kept; `None` if it draws nothing.
+fn piece_of(stroke: &Stroke) -> Option<Piece> {
+    if !stroke.is_drawable() || (stroke.from == stroke.to && stroke.arc.is_none()) {
+        return None;
+    }
+    let cuts = stroke.kind == Kind::Feed && stroke.feed.is_finite();
+    let feed = if cuts { stroke.feed.max(0.0) } else { 0.0 };
+    let arc = stroke.arc.filter(|arc| arc.sweep_deg != 0.0);
+    Some(Piece { kind: stroke.kind, from: stroke.from, to: stroke.to, arc, feed })
 }

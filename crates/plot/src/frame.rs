@@ -4,6 +4,7 @@
 //! small part a dot. If nothing cuts, everything is shown.
 
 use crate::extent::Extent;
+use crate::layers::DrawnLayers;
 use crate::piece::Piece;
 use crate::stroke::Kind;
 use crate::survey::Survey;
@@ -18,7 +19,7 @@ const LEAST_PLAN_PART: f64 = 0.5;
 const POINT_MM: f64 = 10.0;
 
 /// The box that the views are made for.
-pub(crate) fn frame(survey: &Survey, pieces: &[Piece]) -> Extent {
+pub(crate) fn frame(survey: &Survey, pieces: &[Piece], layers: &DrawnLayers) -> Extent {
     let subject = survey.subject();
     if subject.is_empty() {
         return Extent { min: [0.0; 3], max: [100.0, 100.0, 0.0] };
@@ -32,6 +33,7 @@ pub(crate) fn frame(survey: &Survey, pieces: &[Piece]) -> Extent {
             }
         }
     }
+    layers.widen(&mut frame, &near);
     let span = frame.span();
     let least = if span > 0.0 { span * LEAST_PLAN_PART } else { POINT_MM };
     if frame.size(0).max(frame.size(1)) < least {

@@ -1,7 +1,8 @@
 //! The legend: every line and sign that occurs, with its meaning, in rows below the views.
 
 use crate::canvas::Canvas;
-use crate::colour::{AXIS, INK, RAPID, hex};
+use crate::beside::{CONTOUR_WEIGHT, REFUSED_TOOL, REFUSED_WEIGHT, TOOL_WEIGHT};
+use crate::colour::{ALARM, AXIS, CONTOUR, INK, RAPID, SWEPT, TOOL, hex};
 use crate::label::{Anchor, Label};
 use crate::layout::{MARGIN, SHEET_WIDTH};
 use crate::mark::MarkKind;
@@ -25,6 +26,16 @@ const BAR_ROW: f64 = 50.0;
 /// One entry of the legend.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Entry {
+    /// The programmed contour's line.
+    Contour,
+    /// The tool, with its radii in mm if there are few.
+    Tool(Vec<f64>),
+    /// The area that the tool sweeps.
+    Swept,
+    /// A way that the tool does not fit beside.
+    Refused,
+    /// The name of the path that runs, before its lines.
+    Path,
     /// The rapids' line.
     Rapid,
     /// One of a few feeds: its shade and value in mm/min.
@@ -40,6 +51,11 @@ pub(crate) enum Entry {
 impl Entry {
     fn text(&self) -> String {
         match self {
+            Entry::Contour => "programmed contour".to_owned(),
+            Entry::Tool(radii) => tool_text(radii),
+            Entry::Swept => "swept by the tool".to_owned(),
+            Entry::Refused => "refused: the tool does not fit beside it".to_owned(),
+            Entry::Path => "compensated path:".to_owned(),
             Entry::Rapid => "rapid".to_owned(),
             Entry::Feed(_, feed) => format!("feed {} mm/min", written(*feed)),
             Entry::Scale(slowest, fastest) => {
@@ -52,15 +68,17 @@ impl Entry {
 
     fn sample(&self) -> f64 {
         match self {
-            Entry::Rapid | Entry::Feed(..) => LINE_SAMPLE,
-            Entry::Hole | Entry::Sign(_) => SIGN_SAMPLE,
-            Entry::Scale(..) => 0.0,
+            Entry::Contour | Entry::Swept | Entry::Refused | Entry::Rapid | Entry::Feed(..) => LINE_SAMPLE,
+            Entry::Tool(_) | Entry::Hole | Entry::Sign(_) => SIGN_SAMPLE,
+            Entry::Path | Entry::Scale(..) => 0.0,
         }
     }
 
     fn width(&self) -> f64 {
         let beside = if matches!(self, Entry::Scale(..)) { BAR } else { self.sample() };
-        beside + 10.0 + width(&self.text(), SIZE)
+        // A name stands close to what it names.
+        let before = if matches!(self, Entry::Path) { -BETWEEN * 0.6 } else { 10.0 };
+        beside + before + width(&self.text(), SIZE)
     }
 }
 
@@ -114,16 +132,32 @@ fn row_height(row: &[Entry]) -> f64 {
 fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Palette) {
     let middle = [x + 0.5 * entry.sample(), y];
     match entry {
+        Entry::Contour => draw_sample(canvas, [x, y], CONTOUR, CONTOUR_WEIGHT),
+        Entry::Refused => {
+            draw_sample(canvas, [x, y], ALARM, REFUSED_WEIGHT);
+            canvas.open(&format!("fill=\"{ALARM}\" stroke=\"{ALARM}\" {REFUSED_TOOL}"));
+            canvas.circle(middle, 7.0);
+            canvas.close();
+        }
+        Entry::Swept => {
+            let part = Rect { x, y: y - 7.0, width: LINE_SAMPLE, height: 14.0 };
+            canvas.rect(&part, &format!("rx=\"7\" fill=\"{SWEPT}\""));
+        }
+        Entry::Tool(_) => {
+            canvas.open(&format!("stroke=\"{TOOL}\" stroke-width=\"{TOOL_WEIGHT}\""));
+            canvas.circle(middle, 8.0);
+            canvas.close();
+        }
+        Entry::Path => {
+            return canvas.text(&Label::new(entry.text(), [x, y], SIZE, Anchor::Start).centred(), INK);
+        }
         Entry::Rapid => {
             canvas.open(&format!("stroke=\"{RAPID}\" stroke-width=\"1.2\" stroke-dasharray=\"6 4\""));
             canvas.line([x, y], [x + LINE_SAMPLE, y]);
             canvas.close();
         }
         Entry::Feed(shade, _) => {
-            let colour = hex(palette.colour(*shade));
-            canvas.open(&format!("stroke=\"{colour}\" stroke-width=\"3\" stroke-linecap=\"round\""));
-            canvas.line([x, y], [x + LINE_SAMPLE, y]);
-            canvas.close();
+            draw_sample(canvas, [x, y], &hex(palette.colour(*shade)), 3.0);
         }
         Entry::Hole => {
             canvas.path(&hole_path(middle, 5.0), &format!("stroke=\"{INK}\" stroke-width=\"1.4\""));
@@ -135,6 +169,23 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Pa
     }
     let label = Label::new(entry.text(), [x + entry.sample() + 10.0, y], SIZE, Anchor::Start).centred();
     canvas.text(&label, INK);
+}
+
+/// Draws a sample of a line.
+fn draw_sample(canvas: &mut Canvas, [x, y]: [f64; 2], colour: &str, weight: f64) {
+    canvas.open(&format!("stroke=\"{colour}\" stroke-width=\"{weight}\" stroke-linecap=\"round\""));
+    canvas.line([x, y], [x + LINE_SAMPLE, y]);
+    canvas.close();
+}
+
+/// The tool with its radii.
+fn tool_text(radii: &[f64]) -> String {
+    let written: Vec<_> = radii.iter().map(|radius| written(*radius)).collect();
+    match written.as_slice() {
+        [] => "tool".to_owned(),
+        [one] => format!("tool, radius {one} mm"),
+        many => format!("tool, radii {} mm", many.join(", ")),
+    }
 }
 
 /// Draws the continuous scale: the shades in equal ratios, with round numbers below.

@@ -1,11 +1,13 @@
 //! The tool path as a picture: a sheet with a plan and an isometric view, as SVG or PNG.
 //!
-//! Comes in: strokes (straight or arc) in mm, machine coordinates, with kind, feed and tool; marks; a title.
+//! Comes in: strokes (straight or arc) in mm, machine coordinates, with kind, feed and tool; what they run
+//! beside; marks; a title.
 //! Goes out: one SVG text or one PNG, the same bytes for the same input.
 //! Memory is bounded however long the program is: a long path is coarsened to what the sheet can show.
 //! Must never know: a program, a control, a file, a clock.
 
 mod arc;
+mod beside;
 mod canvas;
 mod clip;
 mod colour;
@@ -20,6 +22,7 @@ mod ink;
 mod isometric_axes;
 mod kept;
 mod label;
+mod layers;
 mod layout;
 mod legend;
 mod mark;
@@ -38,9 +41,11 @@ mod stroke;
 mod strokes;
 mod survey;
 mod text;
+mod tool;
 mod view;
 
 pub use drawing::{Drawing, Title};
+pub use layers::Layer;
 pub use mark::{Mark, MarkKind};
 pub use png::{PngError, WIDEST_PX};
 pub use stroke::{Arc, Kind, Plane, Stroke};

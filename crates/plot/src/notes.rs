@@ -14,11 +14,16 @@ const MOST_MARKS: usize = 8;
 /// The notes, one a line.
 pub(crate) fn notes(content: &Content, views: &Views) -> Vec<String> {
     let mut notes = Vec::new();
-    notes.extend(rapids_outside(content, views));
+    if content.layers.path {
+        notes.extend(rapids_outside(content, views));
+    }
     notes.extend(marks_outside(content, views));
     notes.extend(content.drawn.visible_error_mm.map(|error| {
         format!("The program is long: lines are drawn to within {} mm of their place.", written(error.max(0.001)))
     }));
+    if content.layers.unseen {
+        notes.push("The tool is drawn in the plan only, and only where it is compensated in the XY plane.".to_owned());
+    }
     notes
 }
 

@@ -1,5 +1,6 @@
 //! The whole sheet: header, both views, legend, notes.
 
+use crate::beside::{draw_contour, draw_refused, draw_swept, draw_tool};
 use crate::canvas::Canvas;
 use crate::colour::{GRID, INK, PAPER, SOFT_INK};
 use crate::drawing::Title;
@@ -10,6 +11,7 @@ use crate::ink::Ink;
 use crate::isometric_axes::{draw_isometric_axes, draw_isometric_floor};
 use crate::kept::Drawn;
 use crate::label::{Anchor, Label, Places};
+use crate::layers::DrawnLayers;
 use crate::layout::{ISOMETRIC_INSET, Layout, MARGIN, PLAN_INSET, SHEET_WIDTH, layout};
 use crate::legend::{Entry, Legend};
 use crate::mark::Mark;
@@ -41,12 +43,13 @@ pub(crate) struct Content<'a> {
     pub survey: &'a Survey,
     pub drawn: &'a Drawn,
     pub marks: &'a [Mark],
+    pub layers: DrawnLayers<'a>,
 }
 
 /// The sheet as SVG.
 pub(crate) fn sheet(content: &Content) -> String {
     let palette = Palette::new(&content.survey.feeds);
-    let frame = frame(content.survey, &content.drawn.pieces);
+    let frame = frame(content.survey, &content.drawn.pieces, &content.layers);
     let cuts = down_cuts(&content.drawn.pieces);
     let size = |projection: Projection| {
         let flat = projection.flat_extent(&frame);
@@ -143,10 +146,16 @@ fn draw_headings(canvas: &mut Canvas, layout: &Layout) {
 
 fn draw_plan(canvas: &mut Canvas, view: &View, content: &Content, palette: &Palette, cuts: &[DownCut]) {
     let mut places = Places::default();
+    draw_swept(canvas, view, &content.layers);
     draw_plan_grid(canvas, view);
     let ink = Ink::measure(view, &content.drawn.pieces);
-    draw_strokes(canvas, view, &content.drawn.pieces, palette, &ink);
-    draw_down_cuts(canvas, view, cuts, palette, &mut places);
+    draw_tool(canvas, view, &content.layers);
+    if content.layers.path {
+        draw_strokes(canvas, view, &content.drawn.pieces, palette, &ink);
+        draw_down_cuts(canvas, view, cuts, palette, &mut places);
+    }
+    draw_contour(canvas, view, &content.layers);
+    draw_refused(canvas, view, &content.layers, true);
     draw_plan_axes(canvas, view, &mut places);
     draw_marks(canvas, view, content.marks, &ink, &mut places);
 }
@@ -156,13 +165,44 @@ fn draw_isometric(canvas: &mut Canvas, view: &View, content: &Content, palette: 
     canvas.rect(&view.panel, &format!("stroke=\"{GRID}\" stroke-width=\"1\""));
     draw_isometric_floor(canvas, view, frame);
     let ink = Ink::measure(view, &content.drawn.pieces);
-    draw_strokes(canvas, view, &content.drawn.pieces, palette, &ink);
+    if content.layers.path {
+        draw_strokes(canvas, view, &content.drawn.pieces, palette, &ink);
+    }
+    draw_contour(canvas, view, &content.layers);
+    draw_refused(canvas, view, &content.layers, false);
     draw_isometric_axes(canvas, view, frame, &mut places);
     draw_marks(canvas, view, content.marks, &ink, &mut places);
 }
 
 fn entries(content: &Content, views: &Views, palette: &Palette, cuts: &[DownCut]) -> Vec<Entry> {
     let mut entries = Vec::new();
+    let layers = &content.layers;
+    if !layers.programmed.is_empty() {
+        entries.push(Entry::Contour);
+    }
+    if !layers.swept.is_empty() {
+        entries.push(Entry::Tool(layers.radii.clone()));
+        entries.push(Entry::Swept);
+    }
+    if !layers.refused.is_empty() {
+        entries.push(Entry::Refused);
+    }
+    if layers.path {
+        if layers.is_named {
+            entries.push(Entry::Path);
+        }
+        path_entries(&mut entries, content, palette, cuts);
+    }
+    let seen = |mark: &&Mark| views.plan.shows(mark.at) || views.isometric.shows(mark.at);
+    let mut kinds: Vec<_> = content.marks.iter().filter(seen).map(|mark| mark.kind.without_number()).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    entries.extend(kinds.into_iter().map(Entry::Sign));
+    entries
+}
+
+/// The lines of the path.
+fn path_entries(entries: &mut Vec<Entry>, content: &Content, palette: &Palette, cuts: &[DownCut]) {
     if content.drawn.pieces.iter().any(|piece| piece.kind == Kind::Rapid) {
         entries.push(Entry::Rapid);
     }
@@ -175,12 +215,6 @@ fn entries(content: &Content, views: &Views, palette: &Palette, cuts: &[DownCut]
     if cuts.iter().any(|cut| cut.is_hole) {
         entries.push(Entry::Hole);
     }
-    let seen = |mark: &&Mark| views.plan.shows(mark.at) || views.isometric.shows(mark.at);
-    let mut kinds: Vec<_> = content.marks.iter().filter(seen).map(|mark| mark.kind.without_number()).collect();
-    kinds.sort_unstable();
-    kinds.dedup();
-    entries.extend(kinds.into_iter().map(Entry::Sign));
-    entries
 }
 
 /// X, Y, Z of a point, for reading.

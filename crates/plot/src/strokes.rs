@@ -67,7 +67,8 @@ pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], p
     canvas.close();
 }
 
-fn draw_feed(path: &mut PathData, view: &View, piece: &Piece, tolerance_mm: f64) {
+/// Adds a solid piece to a path.
+pub(crate) fn draw_feed(path: &mut PathData, view: &View, piece: &Piece, tolerance_mm: f64) {
     match piece.curve().filter(|curve| is_ellipse(view, curve)) {
         Some(curve) => draw_ellipse(path, view, piece, &curve),
         None => piece.for_each_line(tolerance_mm, |from, to| path.line(view.place(from), view.place(to))),
@@ -96,7 +97,7 @@ fn draw_ellipse(path: &mut PathData, view: &View, piece: &Piece, curve: &Curve) 
 }
 
 /// The chord tolerance in mm with which all arcs of the path stay a bounded number of chords.
-fn chord_tolerance(view: &View, pieces: &[Piece]) -> f64 {
+pub(crate) fn chord_tolerance(view: &View, pieces: &[Piece]) -> f64 {
     let mut tolerance_mm = CHORD / view.scale;
     let flattened: Vec<Curve> =
         pieces.iter().filter_map(Piece::curve).filter(|curve| !is_ellipse(view, curve)).collect();

@@ -4,6 +4,7 @@
 //! Comes in: a session whose program is run by the one interpreter up to the block. Goes out: an [`Explanation`], and
 //! its two faces. Must never know: how a code works; it repeats what the interpreter did and what the tables say.
 
+mod beside;
 mod count;
 mod face;
 mod happening;
@@ -23,6 +24,7 @@ use meaning::State;
 use station::{Library, Session};
 use syntax::{Block, Cursor, read_block};
 
+pub use beside::Beside;
 pub use face::explanation_text;
 pub(crate) use happening::{happening, set_text};
 pub use json::explanation_json;
@@ -57,6 +59,8 @@ pub struct Explanation {
     pub words: Vec<WordLine>,
     /// What happened, in order; its moves with their ends.
     pub events: Vec<Event>,
+    /// Which of its moves run beside their programmed path, and how.
+    pub beside: Vec<Beside>,
     /// How many events there were; more than are kept if the block is a cycle of very many steps.
     pub event_count: usize,
     /// The alarm with its three sentences, if the block is refused.
@@ -107,6 +111,7 @@ pub fn explain<L: Library>(
         note: None,
         words: words::word_lines(&here),
         events: watched.events.clone(),
+        beside: watched.beside.clone(),
         event_count: watched.event_count,
         alarm,
         policies: policies::policy_lines(&here),

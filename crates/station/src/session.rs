@@ -230,7 +230,8 @@ impl<L: Library> Session<L> {
         self.stopped
     }
 
-    /// How the move handed out last follows from the programmed path, if it runs beside that.
+    /// How the move handed out last follows from the programmed path, if it runs beside that; with an alarm, the way that
+    /// the tool does not fit beside.
     pub fn beside(&self) -> Option<&RunBeside> {
         self.motion.upstream.current().beside.as_ref()
     }

@@ -1,11 +1,13 @@
 //! `plot`: the tool path as a picture.
 
-use base::Point;
+mod strokes;
+
 use machine::EventKind;
-use meaning::{CodeLine, Plane};
-use plot::{Arc, Drawing, Kind, Mark, MarkKind, Stroke, Title};
+use meaning::CodeLine;
+use plot::{Drawing, Mark, MarkKind, Title};
 use report::{Format, render};
 
+use self::strokes::{Strokes, layer};
 use super::{name_of, open, run_through};
 use crate::arguments::PlotArguments;
 use crate::failure::Failure;
@@ -33,40 +35,38 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
     let mut session = open(&arguments.file, &arguments.setting)?;
     let configuration = session.configuration().clone();
     let (control, machine) = (&configuration.control, &configuration.machine);
-    let axes = [b'X', b'Y', b'Z'].map(|letter| machine.axes.iter().position(|axis| axis.letter == letter));
-    let at = |point: &Point| axes.map(|axis| axis.map_or(0.0, |axis| point[axis]));
+    let strokes = Strokes::new(machine);
+    let layers: Vec<_> = arguments.layers.iter().map(|argument| layer(*argument)).collect();
     let mut drawing: Option<Drawing> = None;
     let title = |program: &str| Title {
         program: program.to_owned(),
         control: control.title.clone(),
         machine: machine.name.clone(),
     };
-    let (mut tool, mut alarmed) = (0, false);
+    let (mut tool, mut alarmed, mut runs_along) = (0, false, false);
     run_through(&mut session, arguments.setting.repeat, |session, event| {
-        let position = at(session.position());
-        let drawing = drawing.get_or_insert_with(|| Drawing::new(title(name_of(session, event.place.program))));
+        let position = strokes.at(session.position());
+        let drawing = drawing.get_or_insert_with(|| {
+            let mut drawing = Drawing::new(title(name_of(session, event.place.program)));
+            drawing.show(&layers);
+            drawing
+        });
+        if let Some(stroke) = strokes.of_event(&event.kind, tool) {
+            drawing.stroke(&stroke);
+            runs_along |= strokes.beside(drawing, session.beside(), &event.kind, &stroke);
+        }
+        if event.kind == EventKind::BlockDone && !std::mem::take(&mut runs_along) {
+            // Beside an arc as large as the tool nothing moves.
+            let block = session.interpreter().executing();
+            let ways = block.into_iter().flat_map(|block| strokes.ways_of(block, session.position()));
+            ways.for_each(|way| drawing.programmed(&way));
+        }
+        if let EventKind::Alarm(alarm) = &event.kind {
+            strokes.refused(drawing, session, alarm);
+        }
         let mut mark = |kind, text: String| drawing.mark(Mark { at: position, kind, text });
         match &event.kind {
             EventKind::Start(_) => mark(MarkKind::Start, String::new()),
-            EventKind::Rapid { from, to, .. } => {
-                drawing.stroke(&Stroke { kind: Kind::Rapid, from: at(from), to: at(to), arc: None, feed: 0.0, tool });
-            }
-            EventKind::Feed { from, to, feed, .. } => {
-                drawing.stroke(&Stroke { kind: Kind::Feed, from: at(from), to: at(to), arc: None, feed: *feed, tool });
-            }
-            EventKind::Arc { arc, feed, .. } => {
-                let plane = match arc.plane {
-                    Plane::Xy => plot::Plane::Xy,
-                    Plane::Zx => plot::Plane::Zx,
-                    Plane::Yz => plot::Plane::Yz,
-                };
-                let shape = Arc { plane, center: arc.center, sweep_deg: arc.sweep.to_degrees() };
-                // A fourth axis has no place in the picture: where it turns with one of the three, those go straight.
-                let letters = arc.axes.map(|axis| machine.axes.get(usize::from(axis)).map(|axis| axis.letter));
-                let shape = (letters == arc.plane.letters().map(Some)).then_some(shape);
-                let (from, to) = (at(&arc.from), at(&arc.to));
-                drawing.stroke(&Stroke { kind: Kind::Feed, from, to, arc: shape, feed: *feed, tool });
-            }
             EventKind::Code(code) if code.line == CodeLine::T => tool = code.code,
             EventKind::Code(code) if code.line == CodeLine::M && code.code == TOOL_CHANGE => {
                 mark(MarkKind::ToolChange(tool), String::new());

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use dialect::Control;
 use machine::MachineAxis;
 
+use super::beside::beside_lines;
 use super::happening::{Happening, happening};
 use super::words::WordLine;
 use super::{Explanation, Value, plain};
@@ -99,7 +100,16 @@ fn words(words: &[WordLine], paint: Paint, out: &mut String) {
 }
 
 fn does(explanation: &Explanation, control: &Control, axes: &[MachineAxis], paint: Paint, out: &mut String) {
-    let list: Vec<Happening> = explanation.events.iter().filter_map(|event| happening(control, axes, event)).collect();
+    let list: Vec<Happening> = (0..explanation.events.len())
+        .filter_map(|index| {
+            let mut line = happening(control, axes, explanation.events.get(index)?)?;
+            for more in beside_lines(&explanation.events, &explanation.beside, index, axes) {
+                line.details.push('\n');
+                line.details.push_str(&more);
+            }
+            Some(line)
+        })
+        .collect();
     if let Some((wrote, goes_to)) = &explanation.statement {
         heading(paint, "WHAT IT DOES", "carried out as it is read, ahead of the motion", out);
         if let Some(wrote) = wrote {

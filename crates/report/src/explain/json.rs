@@ -2,7 +2,9 @@
 
 use dialect::{Control, Origin};
 use machine::MachineAxis;
+use path::{Corner, Part};
 
+use super::beside::{Beside, side};
 use super::words::WordLine;
 use super::{Explanation, PolicyLine, Value};
 use crate::face::{Format, render};
@@ -28,8 +30,12 @@ pub fn explanation_json(explanation: &Explanation, control: &Control, axes: &[Ma
     list(&mut object, "words", &explanation.words, word);
     let mut tracer = Tracer::new(control, "", axes.iter().map(|axis| axis.letter));
     let does = object.field("does");
+    let (mut written, mut beside) = (0, Vec::new());
     does.push(b'[');
-    for event in explanation.events.iter().filter(|event| !matches!(event.kind, machine::EventKind::Alarm(_))) {
+    for (index, event) in explanation.events.iter().enumerate() {
+        if matches!(event.kind, machine::EventKind::Alarm(_)) {
+            continue;
+        }
         let before = does.len();
         if does.last() == Some(&b'}') {
             does.push(b',');
@@ -40,8 +46,16 @@ pub fn explanation_json(explanation: &Explanation, control: &Control, axes: &[Ma
         // An event without a line of its own leaves nothing; a line ends with its line end.
         let keep = if does.len() == separated { before } else { does.len() - 1 };
         does.truncate(keep);
+        if keep != before {
+            let run = explanation.beside.iter().find(|(at, _)| *at == index);
+            beside.extend(run.map(|(_, run)| (written, *run)));
+            written += 1;
+        }
     }
     does.push(b']');
+    if !beside.is_empty() {
+        list(&mut object, "beside", &beside, run_beside);
+    }
     if let Some((wrote, goes_to)) = &explanation.statement {
         if let Some(wrote) = wrote {
             object.text("wrote", wrote);
@@ -76,6 +90,23 @@ fn list<T>(object: &mut JsonLine, name: &str, items: &[T], write: fn(&T, &mut Js
         inner.end();
     }
     out.push(b']');
+}
+
+/// How a move follows from the programmed path; `of` is its place in `does`.
+fn run_beside((of, run): &Beside, object: &mut JsonLine) {
+    let part = match run.part {
+        Part::Start => "start",
+        Part::Along => "along",
+        Part::Round => "round",
+        Part::Cancel => "cancel",
+    };
+    object.integer("of", *of as u64).text("part", part);
+    object.number("radius", run.radius.abs()).text("side", side(run));
+    match run.corner {
+        Corner::None => object,
+        Corner::Inside => object.text("corner", "inside"),
+        Corner::Outside => object.text("corner", "outside"),
+    };
 }
 
 fn origin(origin: &Origin, object: &mut JsonLine) {

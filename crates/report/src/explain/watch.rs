@@ -7,6 +7,8 @@ use machine::{Event, EventKind};
 use meaning::{State, StatementRead, WordsRead};
 use station::{Library, LibraryError, Session, Step};
 
+use super::beside::Beside;
+
 /// Events of one block that are kept; a cycle can have more, which are counted.
 const MOST_EVENTS: usize = 2000;
 
@@ -43,6 +45,8 @@ pub struct Watched {
     pub words: WordsRead,
     /// What happened, as far as it is kept.
     pub events: Vec<Event>,
+    /// Which of them run beside their programmed path, and how.
+    pub beside: Vec<Beside>,
     /// How many events there were.
     pub event_count: usize,
     /// Why it was refused, if it was.
@@ -130,6 +134,7 @@ impl Watch {
             offsets: [mm(memory.length(after.h)), mm(memory.radius(after.d))],
             words: interpreter.words_read().cloned().unwrap_or_default(),
             events: Vec::new(),
+            beside: Vec::new(),
             event_count: 0,
             alarm: None,
             statement: None,
@@ -157,6 +162,7 @@ impl Watch {
                 offsets: [None; 2],
                 words: WordsRead::default(),
                 events: Vec::new(),
+                beside: Vec::new(),
                 event_count: 0,
                 alarm: None,
                 statement: Some(read),
@@ -180,6 +186,9 @@ impl Watch {
         if event.kind != EventKind::BlockDone {
             block.event_count += 1;
             if block.events.len() < MOST_EVENTS {
+                let moves = matches!(event.kind, EventKind::Rapid { .. } | EventKind::Feed { .. } | EventKind::Arc { .. });
+                let beside = session.beside().filter(|_| moves);
+                block.beside.extend(beside.map(|beside| (block.events.len(), *beside)));
                 block.events.push(event);
             }
         }

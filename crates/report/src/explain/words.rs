@@ -3,6 +3,7 @@
 use base::Alarm;
 use dialect::{AddressKind, MCode, Origin};
 use meaning::ReadAs;
+use path::Part;
 use syntax::{StatementKind, Value, Word};
 
 use super::here::Here;
@@ -70,6 +71,16 @@ fn modal_lines(here: &Here) -> Vec<WordLine> {
     let takes_over = here.one_shot().is_some_and(|code| code.position_offset().is_none());
     if let Some(code) = here.code_in(group).filter(|_| moves && !written && !takes_over) {
         let mut line = bare(format!("(G{:02})", code.code), format!("in force: {}", code.text));
+        line.origin = Some(code.origin.clone());
+        lines.push(line);
+    }
+    let group = roles.compensation;
+    let written = here.rows().any(|(_, code)| code.group.map(usize::from) == Some(group));
+    let run = here.watched.beside.first().map(|(_, run)| run).filter(|run| run.part != Part::Cancel && !written);
+    if let Some((code, run)) = here.code_in(group).zip(run) {
+        let mut line = bare(format!("(G{:02})", code.code), format!("in force: {}", code.text));
+        line.value = quantity(ReadAs::Length, run.radius.abs(), here.units());
+        line.number = Some((run.radius.abs(), unit(ReadAs::Length)));
         line.origin = Some(code.origin.clone());
         lines.push(line);
     }

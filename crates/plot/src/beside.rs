@@ -1,0 +1,85 @@
+//! The layers beside the path in a view: what the tool sweeps, the programmed contour, the tool, what is refused.
+
+use crate::canvas::{Canvas, short};
+use crate::colour::{ALARM, CONTOUR, SWEPT, TOOL};
+use crate::layers::DrawnLayers;
+use crate::path_data::PathData;
+use crate::piece::Piece;
+use crate::strokes::{chord_tolerance, draw_feed};
+use crate::view::View;
+
+/// The weights of the contour, of the tool and of a refused way, in sheet units.
+pub(crate) const CONTOUR_WEIGHT: f64 = 1.3;
+pub(crate) const TOOL_WEIGHT: f64 = 0.9;
+pub(crate) const REFUSED_WEIGHT: f64 = 3.4;
+
+/// What attributes of a tool that does not fit.
+pub(crate) const REFUSED_TOOL: &str = "fill-opacity=\"0.1\" stroke-width=\"1.6\"";
+
+/// Draws what the tool sweeps, under everything else: of a move in the plane, a line as wide as the tool with round ends.
+pub(crate) fn draw_swept(canvas: &mut Canvas, view: &View, layers: &DrawnLayers) {
+    let mut radii: Vec<f64> = layers.swept.iter().map(|piece| piece.feed).collect();
+    radii.sort_by(f64::total_cmp);
+    radii.dedup();
+    if radii.is_empty() {
+        return;
+    }
+    canvas.open_clipped(&view.panel, &format!("stroke=\"{SWEPT}\" stroke-linecap=\"round\" stroke-linejoin=\"round\""));
+    for radius in radii {
+        let ways = layers.swept.iter().filter(|piece| piece.feed == radius);
+        canvas.open(&format!("stroke-width=\"{}\"", short(2.0 * radius * view.scale)));
+        draw_ways(canvas, view, &ways.copied().collect::<Vec<_>>());
+        canvas.close();
+    }
+    canvas.close();
+}
+
+/// Draws the programmed contour.
+pub(crate) fn draw_contour(canvas: &mut Canvas, view: &View, layers: &DrawnLayers) {
+    if layers.programmed.is_empty() {
+        return;
+    }
+    let look = format!("stroke=\"{CONTOUR}\" stroke-width=\"{CONTOUR_WEIGHT}\" stroke-linecap=\"round\"");
+    canvas.open_clipped(&view.panel, &look);
+    draw_ways(canvas, view, &layers.programmed);
+    canvas.close();
+}
+
+/// Draws the tool at its places.
+pub(crate) fn draw_tool(canvas: &mut Canvas, view: &View, layers: &DrawnLayers) {
+    let circles = layers.places.circles(view);
+    if circles.is_empty() {
+        return;
+    }
+    canvas.open_clipped(&view.panel, &format!("stroke=\"{TOOL}\" stroke-width=\"{TOOL_WEIGHT}\""));
+    for (at, radius) in circles {
+        canvas.circle(at, radius);
+    }
+    canvas.close();
+}
+
+/// Draws the ways that the tool does not fit beside; in plan with the tool.
+pub(crate) fn draw_refused(canvas: &mut Canvas, view: &View, layers: &DrawnLayers, in_plan: bool) {
+    if layers.refused.is_empty() {
+        return;
+    }
+    canvas.open_clipped(&view.panel, &format!("stroke=\"{ALARM}\" stroke-linecap=\"round\""));
+    canvas.open(&format!("stroke-width=\"{REFUSED_WEIGHT}\""));
+    draw_ways(canvas, view, &layers.refused.iter().map(|refused| refused.way).collect::<Vec<_>>());
+    canvas.close();
+    canvas.open(&format!("fill=\"{ALARM}\" {REFUSED_TOOL}"));
+    for (at, radius) in layers.refused.iter().filter_map(|refused| refused.tool).filter(|_| in_plan) {
+        canvas.circle(view.place(at), radius * view.scale);
+    }
+    canvas.close();
+    canvas.close();
+}
+
+fn draw_ways(canvas: &mut Canvas, view: &View, ways: &[Piece]) {
+    let mut path = PathData::default();
+    let tolerance_mm = chord_tolerance(view, ways);
+    for way in ways {
+        draw_feed(&mut path, view, way, tolerance_mm);
+    }
+    path.finish().iter().for_each(|d| canvas.path(d, ""));
+}

@@ -1,0 +1,179 @@
+//! What is drawn beside the path that runs: the programmed contour, the tool, what the tool does not fit beside.
+//!
+//! As the path itself, each is kept in bounded memory however much comes in.
+
+use crate::extent::Extent;
+use crate::kept::{Drawn, KeptPath};
+use crate::piece::Piece;
+use crate::stroke::{Kind, Plane};
+use crate::survey::Survey;
+use crate::tool::ToolPlaces;
+
+/// A layer of the picture.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Layer {
+    /// The programmed contour of what runs beside it.
+    Programmed,
+    /// The path that runs.
+    Compensated,
+    /// The tool, and the area that it sweeps.
+    Tool,
+}
+
+/// More refused ways than this are not drawn.
+const MOST_REFUSED: usize = 100;
+
+/// A way that the tool does not fit beside.
+#[derive(Clone, Debug)]
+pub(crate) struct Refused {
+    pub way: Piece,
+    /// The middle of the tool and its radius, in mm, if it is seen round in plan.
+    pub tool: Option<([f64; 3], f64)>,
+}
+
+/// A path with what is known of the whole of it.
+#[derive(Clone, Debug)]
+struct Whole {
+    path: KeptPath,
+    survey: Survey,
+}
+
+impl Whole {
+    fn new() -> Whole {
+        Whole { path: KeptPath::new(), survey: Survey::new() }
+    }
+
+    fn push(&mut self, piece: &Piece) {
+        self.survey.note(piece, 0);
+        self.path.push(piece, &self.survey);
+    }
+
+    fn drawn(&self) -> Drawn {
+        self.path.drawn(&self.survey)
+    }
+}
+
+/// The layers as they grow.
+#[derive(Clone, Debug)]
+pub(crate) struct Layers {
+    shown: Vec<Layer>,
+    programmed: Whole,
+    /// What the tool sweeps; its radius in mm stands where a path has its feed.
+    swept: Whole,
+    places: ToolPlaces,
+    refused: Vec<Refused>,
+    unseen: bool,
+}
+
+/// The layers as they are drawn.
+pub(crate) struct DrawnLayers<'l> {
+    /// The path that runs is drawn.
+    pub path: bool,
+    /// A layer beside it is drawn too: the path needs its name.
+    pub is_named: bool,
+    pub programmed: Vec<Piece>,
+    pub swept: Vec<Piece>,
+    /// The radii of the tool, if there are few.
+    pub radii: Vec<f64>,
+    pub places: &'l ToolPlaces,
+    pub refused: &'l [Refused],
+    /// The tool runs beside a contour of another plane than that of the plan.
+    pub unseen: bool,
+}
+
+impl Layers {
+    /// The path that runs, and nothing beside it.
+    pub fn new() -> Layers {
+        Layers {
+            shown: vec![Layer::Compensated],
+            programmed: Whole::new(),
+            swept: Whole::new(),
+            places: ToolPlaces::default(),
+            refused: Vec::new(),
+            unseen: false,
+        }
+    }
+
+    /// Only these are drawn.
+    pub fn show(&mut self, layers: &[Layer]) {
+        self.shown = layers.to_vec();
+    }
+
+    /// A programmed way.
+    pub fn programmed(&mut self, piece: &Piece) {
+        if self.shows(Layer::Programmed) {
+            self.refused_among(piece);
+        }
+    }
+
+    /// A programmed way near a refused one: it is drawn whatever layers are.
+    pub fn refused_among(&mut self, piece: &Piece) {
+        self.programmed.push(&Piece { feed: 0.0, ..*piece });
+    }
+
+    /// The tool moves, beside a contour of this plane.
+    pub fn swept(&mut self, piece: &Piece, plane: Plane, radius_mm: f64) {
+        if !self.shows(Layer::Tool) || radius_mm <= 0.0 {
+            return;
+        }
+        if plane != Plane::Xy {
+            self.unseen = true;
+            return;
+        }
+        self.swept.push(&Piece { feed: radius_mm, ..*piece });
+        for end in [piece.from, piece.to] {
+            self.places.add(end, radius_mm);
+        }
+    }
+
+    /// The tool does not fit beside a way: this is where it would stand.
+    pub fn refused(&mut self, piece: &Piece, plane: Plane, tool: [f64; 3], radius_mm: f64) {
+        if self.refused.len() < MOST_REFUSED {
+            let tool = (plane == Plane::Xy && radius_mm > 0.0).then_some((tool, radius_mm));
+            self.refused.push(Refused { way: *piece, tool });
+        }
+    }
+
+    /// What is to be drawn.
+    pub fn drawn(&self) -> DrawnLayers<'_> {
+        let programmed = self.programmed.drawn().pieces;
+        DrawnLayers {
+            path: self.shows(Layer::Compensated),
+            is_named: self.shown != [Layer::Compensated] || !programmed.is_empty(),
+            programmed,
+            swept: self.swept.drawn().pieces,
+            radii: self.swept.survey.feeds.named().to_vec(),
+            places: &self.places,
+            refused: &self.refused,
+            unseen: self.unseen,
+        }
+    }
+
+    fn shows(&self, layer: Layer) -> bool {
+        self.shown.contains(&layer)
+    }
+}
+
+impl DrawnLayers<'_> {
+    /// Makes room in the frame for what lies beside the path: all that cuts, and positioning that ends near.
+    pub fn widen(&self, frame: &mut Extent, near: &Extent) {
+        let mut include = |point: [f64; 3], radius: f64| {
+            for side in [-radius, radius] {
+                frame.include([point[0] + side, point[1] + side, point[2]]);
+            }
+        };
+        let ways = self.programmed.iter().chain(self.refused.iter().map(|refused| &refused.way));
+        for (piece, radius) in ways.map(|piece| (piece, 0.0)).chain(self.swept.iter().map(|piece| (piece, piece.feed))) {
+            if piece.kind == Kind::Feed {
+                let extent = piece.extent();
+                include(extent.min, radius);
+                include(extent.max, radius);
+            } else {
+                [piece.from, piece.to].into_iter().filter(|end| near.contains(*end)).for_each(|end| include(end, radius));
+            }
+        }
+        for (at, radius) in self.refused.iter().filter_map(|refused| refused.tool) {
+            include(at, radius);
+        }
+    }
+}
