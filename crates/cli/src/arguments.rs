@@ -175,6 +175,9 @@ pub struct CheckArguments {
     /// Run under every combination of the parameters for power-on and reset, and say what differs at the machine
     #[arg(long)]
     pub all_power_on: bool,
+    /// Elements of a contour before and behind each that gouge-ahead holds against the tool's way beside it; 0 for none
+    #[arg(long, value_name = "ELEMENTS", default_value_t = 64, value_parser = clap::value_parser!(u32).range(0..=4096))]
+    pub look_ahead: u32,
     /// The control and its set-up.
     #[command(flatten)]
     pub setting: SettingArguments,

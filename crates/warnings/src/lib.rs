@@ -3,11 +3,10 @@
 //! Comes in: the events of a run and the interpreter that made them, afterwards the texts. Goes out: [`Finding`]s, and
 //! [`base::Diagnostic`]s of them. Must never know: files, how findings are printed. It looks on and changes nothing of
 //! what runs; memory does not grow with the program.
-//!
-//! Three rules of what compensation does wait for it: `corner-mode-unset`, `barrier-in-compensation`, `gouge-ahead`.
 
 mod blocks;
 mod choice;
+mod curve;
 mod finding;
 mod hygiene;
 mod look;
@@ -16,6 +15,7 @@ mod rules;
 mod show;
 mod trial;
 mod watch;
+mod way;
 
 pub use choice::Choice;
 pub use finding::Finding;

@@ -3,10 +3,13 @@
 //! A rule that looks at one block alone is a function and a line in [`BLOCK_RULES`]; one that remembers is a value.
 
 pub(crate) mod allow_unknown;
+pub(crate) mod barrier_in_compensation;
 pub(crate) mod boring_code_differs;
+pub(crate) mod corner_mode_unset;
 pub(crate) mod endless;
 pub(crate) mod ends_with_offset;
 pub(crate) mod g92_moves_meaning;
+pub(crate) mod gouge_ahead;
 pub(crate) mod inherited_state;
 pub(crate) mod integer_coordinate;
 pub(crate) mod integer_feed;

@@ -53,6 +53,12 @@ rules! {
     PositionOffsetAbsolute = "position-offset-absolute",
     /// A one-shot code in company that the letter of the manual forbids.
     OneShotCompany = "one-shot-company",
+    /// An outside corner, and how to go round it is programmed nowhere.
+    CornerModeUnset = "corner-mode-unset",
+    /// Reading stops while the tool runs beside its path.
+    BarrierInCompensation = "barrier-in-compensation",
+    /// The tool beside one element of a contour cuts another one.
+    GougeAhead = "gouge-ahead",
     /// The program ends with an offset in force.
     EndsWithOffset = "ends-with-offset",
     /// Blocks that no run can come to.

@@ -5,18 +5,22 @@
 
 use std::mem;
 
-use base::{AXES, Point};
+use base::{AXES, Place, Point};
 use dialect::Meaning;
 use machine::{Event, EventKind};
 use meaning::{EndKind, Finish, Interpreter, LENGTH_AXIS, letter_bit};
+use path::{Arc, Part, RunBeside};
 use station::Configuration;
 
 use crate::finding::{Finding, Found};
 use crate::look::{Look, widest};
+use crate::rule::barrier_in_compensation::BarrierInCompensation;
 use crate::rule::boring_code_differs::BoringCodeDiffers;
+use crate::rule::corner_mode_unset::CornerModeUnset;
 use crate::rule::endless::Endless;
 use crate::rule::ends_with_offset::EndsWithOffset;
 use crate::rule::g92_moves_meaning::G92MovesMeaning;
+use crate::rule::gouge_ahead::{GougeAhead, LOOK_AHEAD};
 use crate::rule::inherited_state::InheritedState;
 use crate::rule::integer_coordinate::IntegerCoordinate;
 use crate::rule::integer_feed::IntegerFeed;
@@ -24,6 +28,7 @@ use crate::rule::offset_unset::OffsetUnset;
 use crate::rule::one_shot_company::Company;
 use crate::rule::{BLOCK_RULES, missing_return, rapid_down_and_across};
 use crate::rules::Rule;
+use crate::way::Stretch;
 
 /// Letters that only rare blocks have: codes, offsets, levels.
 const RARE_LETTERS: &[u8] = b"DFHMQRST";
@@ -50,6 +55,13 @@ pub struct Watch {
     ends: EndsWithOffset,
     g92: G92MovesMeaning,
     endless: Endless,
+    /// Tool radius compensation, and whether an alarm has made it doubtful where the tool stands beside its path.
+    stretch: Stretch,
+    doubtful: bool,
+    corner: CornerModeUnset,
+    barrier: BarrierInCompensation,
+    says_barriers: bool,
+    gouge: GougeAhead,
     widest: f64,
 }
 
@@ -61,6 +73,7 @@ impl Watch {
         let own = |name: &str| control.own_warnings.iter().any(|row| row.name == name);
         let needs_row = |name: &str| control.warnings.iter().any(|row| row.own && row.name == name);
         let silent = Rule::ALL.iter().copied().filter(|rule| needs_row(rule.name()) && !own(rule.name()));
+        let silent: Vec<Rule> = silent.collect();
         let length_axis = facts.axis(LENGTH_AXIS).filter(|_| !machine.straight_rapid).map(|axis| (axis, LENGTH_AXIS));
         let mut across = [false; AXES];
         for (index, axis) in facts.axes.iter().enumerate().take(AXES) {
@@ -70,7 +83,8 @@ impl Watch {
         Watch {
             found: Found::default(),
             refused: false,
-            silent: silent.collect(),
+            says_barriers: !silent.contains(&Rule::BarrierInCompensation),
+            silent,
             rare_letters: RARE_LETTERS.iter().fold(0, |set, &letter| set | letter_bit(letter)),
             length_axis,
             across,
@@ -84,17 +98,40 @@ impl Watch {
             ends: EndsWithOffset::default(),
             g92: G92MovesMeaning::default(),
             endless: Endless::default(),
+            stretch: Stretch::default(),
+            doubtful: false,
+            corner: CornerModeUnset::default(),
+            barrier: BarrierInCompensation::default(),
+            gouge: GougeAhead::new(LOOK_AHEAD),
             widest: widest(&travel),
         }
     }
 
-    /// Sees an event, at once after it has happened.
-    pub fn see(&mut self, event: &Event, interpreter: &Interpreter) {
+    /// The same with so many elements of a compensated contour held against each other; 0 for none.
+    #[must_use]
+    pub fn looking_ahead(mut self, elements: u32) -> Watch {
+        self.gouge = GougeAhead::new(elements);
+        self
+    }
+
+    /// Sees an event, at once after it has happened; `beside` is how the move follows from the programmed path.
+    pub fn see(&mut self, event: &Event, interpreter: &Interpreter, beside: Option<&RunBeside>) {
         match &event.kind {
             EventKind::BlockDone if event.place.line > 0 => self.block(interpreter),
-            EventKind::Rapid { from, to, .. } => self.rapid(from, to, interpreter),
-            EventKind::Alarm(_) => self.refused = true,
+            EventKind::Rapid { from, to, .. } => {
+                self.rapid(from, to, interpreter);
+                self.way(&event.place, (from, to, None), beside, interpreter);
+            }
+            EventKind::Feed { from, to, .. } => self.way(&event.place, (from, to, None), beside, interpreter),
+            EventKind::Arc { arc, .. } => self.way(&event.place, (&arc.from, &arc.to, Some(arc)), beside, interpreter),
+            EventKind::Start(_) => self.corner.begin(),
+            EventKind::Alarm(_) => {
+                self.refused = true;
+                self.doubtful = true;
+                self.break_off();
+            }
             EventKind::End { kind, groups, reset, .. } => {
+                self.barrier.flush(&mut self.found);
                 let look = look(interpreter);
                 // What a refused block has left unknown is not judged.
                 if look.after().unknown.is_nothing() {
@@ -109,6 +146,7 @@ impl Watch {
 
     /// The run is over, whatever ended it: what only the whole shows.
     pub fn finish(&mut self) {
+        self.break_off();
         self.inherited.end(EndKind::Text, &mut self.found);
         self.points.end(&mut self.found);
     }
@@ -145,6 +183,53 @@ impl Watch {
                 });
             }
         }
+    }
+
+    /// A move, if the tool runs beside its path or did until now.
+    #[inline]
+    fn way(
+        &mut self,
+        place: &Place,
+        ends: (&Point, &Point, Option<&Arc>),
+        beside: Option<&RunBeside>,
+        interpreter: &Interpreter,
+    ) {
+        if beside.is_some() || self.stretch.is_on() {
+            self.step(place, ends, beside, interpreter);
+        }
+    }
+
+    fn step(
+        &mut self,
+        place: &Place,
+        ends: (&Point, &Point, Option<&Arc>),
+        beside: Option<&RunBeside>,
+        interpreter: &Interpreter,
+    ) {
+        if self.doubtful {
+            // Until it begins anew it is not known where the tool stands.
+            let is_known = interpreter.executing_state().unknown.is_nothing();
+            if !is_known || beside.is_none_or(|beside| beside.part != Part::Start) {
+                return;
+            }
+            self.doubtful = false;
+        }
+        let Some(way) = self.stretch.way(place, ends, beside, interpreter) else { return };
+        let found = &mut self.found;
+        self.corner.look(&way, found);
+        let claimed = self.barrier.step(&way, found) && self.says_barriers;
+        self.gouge.step(&way, claimed, found);
+        if way.leaves {
+            self.break_off();
+        }
+    }
+
+    /// What the tool does beside its path is not known from here on.
+    fn break_off(&mut self) {
+        self.stretch.end();
+        self.barrier.end(&mut self.found);
+        self.gouge.end(&mut self.found);
+        self.corner.drop_corner();
     }
 
     fn block(&mut self, interpreter: &Interpreter) {
@@ -184,6 +269,7 @@ impl Watch {
         self.company.look(&look, found);
         self.offsets.look(&look, found);
         self.ends.look(&look);
+        self.barrier.look(&look, found);
         self.g92.look(&look, found);
         self.endless.look(&look);
         for (_, rule) in BLOCK_RULES {

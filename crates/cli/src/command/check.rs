@@ -167,13 +167,13 @@ fn check_one(file: &str, arguments: &CheckArguments, findings: &mut Findings) ->
     let configuration = &program.configuration;
     let (control, machine) = (&configuration.control, &configuration.machine);
     let mut session = program.session(configuration.fitting.clone())?;
-    let mut watch = Watch::new(configuration);
+    let mut watch = Watch::new(configuration).looking_ahead(arguments.look_ahead);
     let mut said = BTreeSet::new();
     let mut piece = 0;
     session.set_after_alarm(AfterAlarm::GoOn);
     let mut alarmed = false;
     run_through(&mut session, repeat, |session, event| {
-        watch.see(event, session.interpreter());
+        watch.see(event, session.interpreter(), session.beside());
         match &event.kind {
             EventKind::Start(_) => piece += 1,
             EventKind::Alarm(alarm) => {

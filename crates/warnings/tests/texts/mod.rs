@@ -53,7 +53,7 @@ pub fn watched(session: &mut Session<Text>, watch: &mut Watch, most: usize) -> (
         match session.next() {
             Step::Event(event) => {
                 events += 1;
-                watch.see(&event, session.interpreter());
+                watch.see(&event, session.interpreter(), session.beside());
                 if watch.has_found() {
                     found.extend(watch.take());
                 }

@@ -1,0 +1,382 @@
+//! Lines and arcs in the plane of compensation, and how near to each other they come; mm.
+
+use path::{Arc, Programmed};
+
+use std::f64::consts::TAU;
+
+/// A point or a way in the plane.
+pub(crate) type Vector = [f64; 2];
+
+/// Angles nearer to each other than this, radians, are one.
+const SAME_ANGLE: f64 = 1e-9;
+/// Directions with less sine than this are parallel.
+const PARALLEL: f64 = 1e-12;
+
+/// A line or an arc in the plane.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Curve {
+    pub from: Vector,
+    pub to: Vector,
+    /// How it turns, if it is an arc.
+    pub turn: Option<Turn>,
+}
+
+/// How an arc turns. A spiral is taken for the circle of its mean radius.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Turn {
+    pub center: Vector,
+    pub radius: f64,
+    /// Half of what the radii at its ends differ by.
+    pub slack: f64,
+    start_angle: f64,
+    pub sweep: f64,
+}
+
+/// Low and high corner.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Extent {
+    pub low: Vector,
+    pub high: Vector,
+}
+
+impl Extent {
+    /// Of nothing.
+    pub const NOTHING: Extent = Extent { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+
+    /// The least that holds both.
+    pub fn with(&self, other: &Extent) -> Extent {
+        let pick = |axis: usize| (self.low[axis].min(other.low[axis]), self.high[axis].max(other.high[axis]));
+        let (x, y) = (pick(0), pick(1));
+        Extent { low: [x.0, y.0], high: [x.1, y.1] }
+    }
+
+    /// True if the other comes nearer than this along both axes.
+    pub fn is_near(&self, other: &Extent, distance: f64) -> bool {
+        let apart =
+            |axis: usize| self.low[axis] - other.high[axis] > distance || other.low[axis] - self.high[axis] > distance;
+        !apart(0) && !apart(1)
+    }
+}
+
+impl Curve {
+    /// A straight way.
+    pub fn line(from: Vector, to: Vector) -> Curve {
+        Curve { from, to, turn: None }
+    }
+
+    /// An arc as it lies in its plane.
+    pub fn arc(arc: &Arc) -> Curve {
+        let [first, last] = arc.radius;
+        let turn = Turn {
+            center: arc.center,
+            radius: f64::midpoint(first, last),
+            slack: (last - first).abs() / 2.0,
+            start_angle: arc.start_angle,
+            sweep: arc.sweep,
+        };
+        Curve { from: in_plane(&arc.from, arc.axes), to: in_plane(&arc.to, arc.axes), turn: Some(turn) }
+    }
+
+    /// A programmed way in the plane of these axes.
+    pub fn programmed(way: &Programmed, axes: [u8; 2]) -> Curve {
+        match way {
+            Programmed::Line(from, to) => Curve::line(in_plane(from, axes), in_plane(to, axes)),
+            Programmed::Arc(arc) => Curve::arc(arc),
+        }
+    }
+
+    /// By how much places on it may lie beside it.
+    pub fn slack(&self) -> f64 {
+        self.turn.map_or(0.0, |turn| turn.slack)
+    }
+
+    /// The directions at its start and end, of any length.
+    pub fn directions(&self) -> [Vector; 2] {
+        match &self.turn {
+            None => [less(self.to, self.from); 2],
+            Some(turn) => [self.from, self.to].map(|end| {
+                let spoke = less(end, turn.center);
+                if turn.sweep < 0.0 { [spoke[1], -spoke[0]] } else { [-spoke[1], spoke[0]] }
+            }),
+        }
+    }
+
+    /// The box around it.
+    pub fn extent(&self) -> Extent {
+        let mut extent = Extent {
+            low: [self.from[0].min(self.to[0]), self.from[1].min(self.to[1])],
+            high: [self.from[0].max(self.to[0]), self.from[1].max(self.to[1])],
+        };
+        if let Some(turn) = &self.turn {
+            for (axis, quarter) in [(0, 0.0), (1, 1.0), (0, 2.0), (1, 3.0)] {
+                if turn.passes(quarter * TAU / 4.0) {
+                    let side = if quarter < 2.0 { turn.radius } else { -turn.radius };
+                    extent.low[axis] = extent.low[axis].min(turn.center[axis] + side);
+                    extent.high[axis] = extent.high[axis].max(turn.center[axis] + side);
+                }
+            }
+        }
+        extent
+    }
+
+    /// Its place nearest to a point.
+    pub fn nearest(&self, point: Vector) -> Vector {
+        match &self.turn {
+            None => {
+                let way = less(self.to, self.from);
+                let square = dot(way, way);
+                let part = if square > 0.0 { dot(less(point, self.from), way) / square } else { 0.0 };
+                match part.clamp(0.0, 1.0) {
+                    0.0 => self.from,
+                    1.0 => self.to,
+                    part => [self.from[0] + way[0] * part, self.from[1] + way[1] * part],
+                }
+            }
+            Some(turn) => {
+                let spoke = less(point, turn.center);
+                let long = length(spoke);
+                if long > 0.0 && turn.passes(libm::atan2(spoke[1], spoke[0])) {
+                    return turn.at(spoke, turn.radius / long);
+                }
+                if distance(point, self.from) <= distance(point, self.to) { self.from } else { self.to }
+            }
+        }
+    }
+
+    /// How near the other comes, and the place on the other.
+    pub fn approach(&self, other: &Curve) -> (f64, Vector) {
+        if let Some(place) = self.crossing(other) {
+            return (0.0, place);
+        }
+        let mut best = (f64::INFINITY, other.from);
+        let mut try_pair = |on_self: Vector, on_other: Vector| {
+            let apart = distance(on_self, on_other);
+            if apart < best.0 {
+                best = (apart, on_other);
+            }
+        };
+        for end in [self.from, self.to] {
+            try_pair(end, other.nearest(end));
+        }
+        for end in [other.from, other.to] {
+            try_pair(self.nearest(end), end);
+        }
+        // Beside the ends only where the other's nearest place to a centre lies, or away from it.
+        for place in self.turn.iter().flat_map(|turn| turn.facing(other)) {
+            let own = self.nearest(place);
+            try_pair(own, other.nearest(own));
+        }
+        for place in other.turn.iter().flat_map(|turn| turn.facing(self)) {
+            let far = other.nearest(place);
+            try_pair(self.nearest(far), far);
+        }
+        best
+    }
+
+    /// A place where both cross.
+    pub fn crossing(&self, other: &Curve) -> Option<Vector> {
+        match (&self.turn, &other.turn) {
+            (None, None) => {
+                let (a, b) = (less(self.to, self.from), less(other.to, other.from));
+                let sine = cross(a, b);
+                if sine.abs() <= PARALLEL * length(a) * length(b) {
+                    return None;
+                }
+                let between = less(other.from, self.from);
+                let (s, t) = (cross(between, b) / sine, cross(between, a) / sine);
+                let inside = 0.0..=1.0;
+                (inside.contains(&s) && inside.contains(&t)).then(|| [self.from[0] + a[0] * s, self.from[1] + a[1] * s])
+            }
+            (Some(turn), None) => turn.crosses_line(other),
+            (None, Some(turn)) => turn.crosses_line(self),
+            (Some(turn), Some(other)) => turn.crosses(other),
+        }
+    }
+
+    /// What of it lies behind a place on it.
+    pub fn behind(&self, place: Vector) -> Curve {
+        let turn = self.turn.map(|turn| {
+            let part = turn.part(place);
+            let start_angle = turn.start_angle + turn.sweep * part;
+            Turn { start_angle, sweep: turn.sweep * (1.0 - part), ..turn }
+        });
+        Curve { from: place, to: self.to, turn }
+    }
+
+    /// What of it lies before a place on it.
+    pub fn before(&self, place: Vector) -> Curve {
+        let turn = self.turn.map(|turn| {
+            let part = turn.part(place);
+            // The place where a circle began is also the one where it ends.
+            Turn { sweep: if part == 0.0 { turn.sweep } else { turn.sweep * part }, ..turn }
+        });
+        Curve { from: self.from, to: place, turn }
+    }
+}
+
+impl Turn {
+    /// True if it comes by in this direction from its centre.
+    fn passes(&self, angle: f64) -> bool {
+        let way = self.way_to(angle);
+        way <= self.sweep.abs() + SAME_ANGLE || way >= TAU - SAME_ANGLE
+    }
+
+    /// The angle from its start to a direction, the way it turns; 0 to 2π.
+    fn way_to(&self, angle: f64) -> f64 {
+        ((angle - self.start_angle) * self.sweep.signum()).rem_euclid(TAU)
+    }
+
+    /// Which part of it lies before a place on it.
+    fn part(&self, place: Vector) -> f64 {
+        let spoke = less(place, self.center);
+        let way = self.way_to(libm::atan2(spoke[1], spoke[0]));
+        let all = self.sweep.abs();
+        if way > all { if way > f64::midpoint(all, TAU) { 0.0 } else { 1.0 } } else { way / all }
+    }
+
+    fn at(&self, spoke: Vector, times: f64) -> Vector {
+        [self.center[0] + spoke[0] * times, self.center[1] + spoke[1] * times]
+    }
+
+    /// Places in the directions in which another curve can be nearest.
+    fn facing(&self, other: &Curve) -> [Vector; 2] {
+        match &other.turn {
+            None => [other.nearest(self.center); 2],
+            Some(other) => {
+                let way = less(other.center, self.center);
+                [self.at(way, 1.0), self.at(way, -1.0)]
+            }
+        }
+    }
+
+    fn holds(&self, place: Vector) -> bool {
+        let spoke = less(place, self.center);
+        self.passes(libm::atan2(spoke[1], spoke[0]))
+    }
+
+    fn crosses_line(&self, line: &Curve) -> Option<Vector> {
+        let way = less(line.to, line.from);
+        let square = dot(way, way);
+        let out = less(line.from, self.center);
+        // |out + way·s| = radius
+        let half = dot(out, way);
+        let root = half * half - square * (dot(out, out) - self.radius * self.radius);
+        if square <= 0.0 || root < 0.0 {
+            return None;
+        }
+        let root = root.sqrt();
+        let parts = [(-half - root) / square, (-half + root) / square];
+        let places = parts.into_iter().filter(|part| (0.0..=1.0).contains(part));
+        places.map(|part| [line.from[0] + way[0] * part, line.from[1] + way[1] * part]).find(|&place| self.holds(place))
+    }
+
+    fn crosses(&self, other: &Turn) -> Option<Vector> {
+        let way = less(other.center, self.center);
+        let square = dot(way, way);
+        if square <= 0.0 {
+            return None;
+        }
+        let along = (square + self.radius * self.radius - other.radius * other.radius) / (2.0 * square);
+        let beside = self.radius * self.radius / square - along * along;
+        if beside < 0.0 {
+            return None;
+        }
+        let beside = beside.sqrt();
+        let at = |beside: f64| {
+            [self.center[0] + way[0] * along - way[1] * beside, self.center[1] + way[1] * along + way[0] * beside]
+        };
+        [at(beside), at(-beside)].into_iter().find(|&place| self.holds(place) && other.holds(place))
+    }
+}
+
+/// A point's axes of the plane.
+pub(crate) fn in_plane(point: &base::Point, axes: [u8; 2]) -> Vector {
+    axes.map(|axis| point.get(usize::from(axis)).copied().unwrap_or(0.0))
+}
+
+pub(crate) fn less(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+pub(crate) fn cross(a: Vector, b: Vector) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+pub(crate) fn length(a: Vector) -> f64 {
+    dot(a, a).sqrt()
+}
+
+pub(crate) fn distance(a: Vector, b: Vector) -> f64 {
+    length(less(a, b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arc(center: Vector, radius: f64, start: f64, sweep: f64) -> Curve {
+        let at = |angle: f64| {
+            let (sin, cos) = libm::sincos(angle);
+            [center[0] + radius * cos, center[1] + radius * sin]
+        };
+        let turn = Turn { center, radius, slack: 0.0, start_angle: start, sweep };
+        Curve { from: at(start), to: at(start + sweep), turn: Some(turn) }
+    }
+
+    /// A place on a curve.
+    fn at(curve: &Curve, part: f64) -> Vector {
+        match &curve.turn {
+            None => {
+                let way = less(curve.to, curve.from);
+                [curve.from[0] + way[0] * part, curve.from[1] + way[1] * part]
+            }
+            Some(turn) => {
+                let (sin, cos) = libm::sincos(turn.start_angle + turn.sweep * part);
+                turn.at([cos, sin], turn.radius)
+            }
+        }
+    }
+
+    #[test]
+    fn lines_and_arcs_approach_as_a_search_finds_it() {
+        let mut seed = 12_345_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1u64 << 53) as f64
+        };
+        let mut crossings = 0;
+        for _ in 0..2000 {
+            let mut curve = || match random() < 0.5 {
+                true => Curve::line([random() * 10.0, random() * 10.0], [random() * 10.0, random() * 10.0]),
+                false => {
+                    arc([random() * 10.0, random() * 10.0], 0.5 + random() * 5.0, random() * 6.0, random() * 12.0 - 6.0)
+                }
+            };
+            let (a, b) = (curve(), curve());
+            let (found, place) = a.approach(&b);
+            assert!(distance(b.nearest(place), place) < 1e-9);
+            let steps = 400;
+            let places = (0..=steps).map(|step| at(&a, f64::from(step) / f64::from(steps)));
+            let searched = places.map(|place| distance(place, b.nearest(place))).fold(f64::INFINITY, f64::min);
+            assert!(found <= searched + 1e-9 && searched < found + 0.1, "{found} {searched} {a:?} {b:?}");
+            crossings += u32::from(found == 0.0);
+        }
+        assert!(crossings > 100);
+    }
+
+    #[test]
+    fn what_lies_before_and_behind_a_place_is_the_whole() {
+        let half = arc([0.0, 0.0], 5.0, 0.0, TAU / 2.0);
+        let top = [0.0, 5.0];
+        let (before, behind) = (half.before(top), half.behind(top));
+        assert_eq!((before.from, before.to, behind.from, behind.to), (half.from, top, top, half.to));
+        let sweep = |curve: &Curve| curve.turn.map_or(0.0, |turn| turn.sweep);
+        assert!((sweep(&before) - TAU / 4.0).abs() < 1e-12 && (sweep(&behind) - TAU / 4.0).abs() < 1e-12);
+        let extent = half.extent();
+        assert_eq!((extent.low[0], extent.high), (-5.0, [5.0, 5.0]));
+    }
+}
