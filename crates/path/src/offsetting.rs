@@ -4,7 +4,9 @@
 use base::{Alarm, Condition, Point};
 use meaning::{Act, Barrier, Command, Element, Interpreter, Offset};
 
-use crate::compensation::{Beside, Compensation, Corner, Fault, Join, NONE, Next, NextKind, Plan, Rules, Vector, Which};
+use crate::compensation::{
+    Beside, Compensation, Corner, Fault, Join, NONE, Next, NextKind, Plan, Rules, Vector, Which,
+};
 use crate::pieces::{Carried, Pieces};
 use crate::shape::{Part, RunBeside, Shaped};
 
@@ -65,6 +67,8 @@ struct Ahead {
 struct At {
     index: usize,
     part: u8,
+    /// Ways of its block.
+    parts: u8,
     block: u64,
 }
 
@@ -134,7 +138,8 @@ impl Offsetting {
             if !self.ahead.way.edge.take(&element) {
                 return Ok(Taken::AsItIs);
             }
-            self.ahead.at = look(upstream, At { index: 0, part, block }, axes, &mut self.ahead.next)?;
+            let parts = command.parts();
+            self.ahead.at = look(upstream, At { index: 0, part, parts, block }, axes, &mut self.ahead.next)?;
             self.ahead.way.offset = offset;
         }
         let mut behind = self.ahead.at;
@@ -173,7 +178,7 @@ impl Offsetting {
         position: &mut Point,
         shaped: &mut Shaped,
     ) -> Result<bool, (At, Fault)> {
-        let this = At { index: 0, part: self.part.saturating_sub(1), block: self.block };
+        let this = At { index: 0, part: self.part.saturating_sub(1), parts: 1, block: self.block };
         let Offsetting { compensation, ahead, is_known, plan, pieces, after, .. } = self;
         let policies = &upstream.fitting().policies;
         let rules = Rules {
@@ -231,15 +236,14 @@ fn look(upstream: &mut Interpreter, way: At, axes: [u8; 2], next: &mut Next) -> 
     let mut at = way;
     let mut still = 0;
     let mut element = Element::default();
-    let mut parts = upstream.look_ahead(at.index)?.map_or(1, Command::parts);
     next.kind = NextKind::Unseen;
     loop {
-        (at.index, at.part) = if at.part + 1 < parts { (at.index, at.part + 1) } else { (at.index + 1, 0) };
+        (at.index, at.part) = if at.part + 1 < at.parts { (at.index, at.part + 1) } else { (at.index + 1, 0) };
         let Some(command) = upstream.look_ahead(at.index)?.filter(|command| !command.is_refused()) else {
             return Ok(at);
         };
         at.block = command.block;
-        parts = command.parts();
+        at.parts = command.parts();
         if command.drops_offset(axes) {
             next.kind = NextKind::Ends;
             return Ok(at);

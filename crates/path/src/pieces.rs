@@ -117,33 +117,46 @@ impl Carried<'_> {
             false if join.round && step == 1 => Some(self.arc_round(&from, &to, join, programmed)),
             _ => None,
         };
-        let length = arc.map_or_else(|| distance(&from, &to), |arc| arc.plane_length());
-        if length < NO_LENGTH && beside_plane(&from, axes) == beside_plane(&to, axes) {
+        let has_length = match &arc {
+            None => less(in_plane(&to, axes), in_plane(&from, axes)).iter().any(|way| way.abs() >= NO_LENGTH),
+            Some(arc) => arc.plane_length() >= NO_LENGTH,
+        };
+        if !has_length && beside_plane(&from, axes) == beside_plane(&to, axes) {
             return false;
         }
-        // An arc shrunk to its centre is a turn on the spot.
-        let arc = arc.filter(|_| length >= NO_LENGTH);
         *position = to;
-        shaped.shape = shape(operation, arc, from, to, last);
+        match (&operation.act, arc) {
+            (Act::Line { feed, .. }, None) => straight(&mut shaped.shape, &from, &to, feed, last),
+            // An arc shrunk to its centre is a turn on the spot.
+            (_, arc) => shaped.shape = shape(operation, arc.filter(|_| has_length), from, to, last),
+        }
         shaped.block = operation.block;
         shaped.place = operation.place;
         shaped.stop_point = operation.stop_point && last;
         shaped.until_signal = false;
         shaped.stroke_check = operation.stroke_check;
         shaped.certain = self.certain;
-        shaped.beside = Some(RunBeside {
-            part: match (along, self.plan.starts) {
-                (true, true) => Part::Start,
-                (true, false) => Part::Along,
-                (false, _) => Part::Round,
-            },
+        let part = match (along, self.plan.starts) {
+            (true, true) => Part::Start,
+            (true, false) => Part::Along,
+            (false, _) => Part::Round,
+        };
+        self.mark(part, &mut shaped.beside);
+        true
+    }
+
+    /// Writes how a piece follows from the programmed path; on its own as [`straight`] is.
+    #[inline(never)]
+    fn mark(&self, part: Part, beside: &mut Option<RunBeside>) {
+        let along = part != Part::Round;
+        *beside = Some(RunBeside {
+            part,
             radius: self.offset.radius,
             corner: if along { self.plan.after.corner } else { Corner::None },
             way: along.then_some(*self.element),
             plane: self.offset.plane,
-            axes,
+            axes: self.offset.axes,
         });
-        true
     }
 
     /// The arc beside the programmed one: about the same centre.
@@ -187,6 +200,12 @@ fn end_of(operation: &Operation) -> Option<&Point> {
     }
 }
 
+/// Writes a cut from here to there. On its own: made in the midst of others it would be built aside and copied.
+#[inline(never)]
+fn straight(shape: &mut Shape, from: &Point, to: &Point, feed: &Feed, last: bool) {
+    *shape = Shape::Line { from: *from, to: *to, feed: Feed { exact_stop: feed.exact_stop && last, ..*feed } };
+}
+
 /// The shape from here to there; of a block in pieces only the last one ends exactly.
 fn shape(operation: &Operation, arc: Option<Arc>, from: Point, to: Point, last: bool) -> Shape {
     let feed = match operation.act {
@@ -223,8 +242,4 @@ fn in_plane(point: &Point, axes: [u8; 2]) -> Vector {
 /// A point with its axes of the plane left out.
 fn beside_plane(point: &Point, axes: [u8; 2]) -> Point {
     placed(point, axes, [0.0; 2], [0.0; 2])
-}
-
-fn distance(from: &Point, to: &Point) -> f64 {
-    from.iter().zip(to).map(|(from, to)| (to - from) * (to - from)).sum::<f64>().sqrt()
 }
