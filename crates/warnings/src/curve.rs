@@ -45,9 +45,10 @@ impl Extent {
 
     /// The least that holds both.
     pub fn with(&self, other: &Extent) -> Extent {
-        let pick = |axis: usize| (self.low[axis].min(other.low[axis]), self.high[axis].max(other.high[axis]));
-        let (x, y) = (pick(0), pick(1));
-        Extent { low: [x.0, y.0], high: [x.1, y.1] }
+        Extent {
+            low: [least(self.low[0], other.low[0]), least(self.low[1], other.low[1])],
+            high: [most(self.high[0], other.high[0]), most(self.high[1], other.high[1])],
+        }
     }
 
     /// True if the other comes nearer than this along both axes.
@@ -102,10 +103,12 @@ impl Curve {
     }
 
     /// The box around it.
+    #[inline]
     pub fn extent(&self) -> Extent {
+        let (from, to) = (self.from, self.to);
         let mut extent = Extent {
-            low: [self.from[0].min(self.to[0]), self.from[1].min(self.to[1])],
-            high: [self.from[0].max(self.to[0]), self.from[1].max(self.to[1])],
+            low: [least(from[0], to[0]), least(from[1], to[1])],
+            high: [most(from[0], to[0]), most(from[1], to[1])],
         };
         if let Some(turn) = &self.turn {
             for (axis, quarter) in [(0, 0.0), (1, 1.0), (0, 2.0), (1, 3.0)] {
@@ -289,7 +292,20 @@ impl Turn {
     }
 }
 
+/// The smaller of two numbers; quicker than `f64::min`, which looks for what is none.
+#[inline]
+pub(crate) fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The greater of two numbers.
+#[inline]
+pub(crate) fn most(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
 /// A point's axes of the plane.
+#[inline]
 pub(crate) fn in_plane(point: &base::Point, axes: [u8; 2]) -> Vector {
     axes.map(|axis| point.get(usize::from(axis)).copied().unwrap_or(0.0))
 }

@@ -6,8 +6,8 @@ use path::{Arc, Corner, Part, RunBeside};
 
 use crate::curve::{Curve, Vector, cross, distance, dot, in_plane, less};
 
-/// Counts a mm.
-const COUNTS: f64 = 1e6;
+/// A count in mm.
+const MM: f64 = 1e-6;
 /// A path that runs beside its element by the tool's radius is taken for one up to this part of it.
 const EXACTNESS: f64 = 1e-7;
 
@@ -71,10 +71,11 @@ impl Stretch {
             Some(arc) if arc.axes == axes => Curve::arc(arc),
             _ => Curve::line(in_plane(from, axes), in_plane(to, axes)),
         };
-        let mut level = true;
+        let mut moved = 0_u32;
         for axis in 0..AXES {
-            level &= from[axis] == to[axis] || axes.contains(&(axis as u8));
+            moved |= u32::from(from[axis] != to[axis]) << axis;
         }
+        let level = moved & !axes.iter().fold(0, |set, &axis| set | 1_u32.wrapping_shl(u32::from(axis))) == 0;
         let beside = beside.filter(|beside| beside.part != Part::Cancel);
         let runs_free = || command.offset().is_none() || command.drops_offset(axes);
         let leaves = beside.is_none() && centre.from != centre.to && runs_free();
@@ -82,7 +83,7 @@ impl Stretch {
         let part = beside.map(|beside| beside.part);
         let element = match beside.and_then(|beside| beside.way.map(|way| (beside, way))) {
             Some((_, way)) if part == Some(Part::Along) && way.turn.is_none() => {
-                let [from, to] = [way.from, way.to].map(|end| end.map(|counts| counts / COUNTS));
+                let [from, to] = [way.from, way.to].map(|end| end.map(|counts| counts * MM));
                 Some(Curve::line(from, to))
             }
             Some((beside, _)) if part == Some(Part::Along) => {

@@ -10,7 +10,7 @@ use base::Place;
 use path::Part;
 
 use super::{Hit, LEAST_MM};
-use crate::curve::{Curve, Extent, Vector, distance};
+use crate::curve::{Curve, Extent, Vector, distance, least, most};
 use crate::way::Way;
 
 /// Moves in a box together.
@@ -401,7 +401,7 @@ fn extent(centre: &Curve, element: Option<&Curve>) -> Extent {
 const NO_REACH: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 fn wider(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
-    [one[0].min(other[0]), one[1].max(other[1])]
+    [least(one[0], other[0]), most(one[1], other[1])]
 }
 
 /// A straight piece at a corner that leads across the contour, to the other side of it.
