@@ -36,6 +36,7 @@ checks: cargo
 	python3 ci/house.py
 	python3 ci/licences.py
 	python3 ci/pages.py --check
+	python3 ci/pictures.py --check
 	set -e; for control in yasnac-mx1 incon-m84 incon-m86 incon-m86r; do \
 		cargo run --quiet --locked -p cyclestart -- controls $$control --coverage > /dev/null; done
 	python3 -m unittest discover -q ci
@@ -59,10 +60,13 @@ cases: cargo ## write what the program now prints into cases/; the diff is the r
 pages: ## write the programmer's pages docs/*/ from tables and cases
 	python3 ci/pages.py
 
+pictures: cargo ## draw the pictures of docs/ again
+	python3 ci/pictures.py
+
 clean: ## remove all that was built
 	rm -rf target run fuzz/target fuzz/corpus fuzz/artifacts
 
 cargo:
 	@command -v cargo >/dev/null || { echo "Rust's cargo is missing: rustup.rs says how to install it (one line)."; exit 1; }
 
-.PHONY: help run build test format lint unit docs checks bench fuzz cases pages clean cargo
+.PHONY: help run build test format lint unit docs checks bench fuzz cases pages pictures clean cargo

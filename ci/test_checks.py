@@ -5,6 +5,7 @@ from pathlib import Path
 
 import house
 import licences
+import pictures
 
 
 class Licences(unittest.TestCase):
@@ -29,6 +30,12 @@ class Licences(unittest.TestCase):
                                  package("silent", None)]}
         found = licences.refusals(metadata)
         self.assertEqual([line.split(" ")[0] for line in found], ["bad", "silent"])
+
+
+class Pictures(unittest.TestCase):
+    def test_pictures_of_a_page(self):
+        page = "![A pocket](compensation/inside.svg) and [a page](radius.md), ![b](c/d.svg)"
+        self.assertEqual(pictures.pictures_of(page), ["compensation/inside.svg", "c/d.svg"])
 
 
 class House(unittest.TestCase):
