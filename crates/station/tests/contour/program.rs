@@ -194,6 +194,12 @@ impl Run {
         &self.pieces[first..end]
     }
 
+    /// Where the tool is when an element's block begins.
+    pub fn end_before(&self, element: usize) -> Vector {
+        let before = self.pieces.iter().take_while(|piece| piece.element < element as i64);
+        before.last().map_or([0.0; 2], |piece| piece.form.to())
+    }
+
     /// How many elements have run, the first ones.
     pub fn ran(&self, elements: usize) -> usize {
         if self.alarm.is_none() {
