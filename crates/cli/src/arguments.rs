@@ -43,7 +43,9 @@ pub enum Command {
     )]
     Operate(OperateArguments),
     /// Draw the tool path as SVG or PNG
-    #[command(after_help = "Examples:\n  cyclestart plot part.nc -o part.svg\n  cyclestart plot part.nc --layers programmed,compensated,tool -o part.svg")]
+    #[command(
+        after_help = "Examples:\n  cyclestart plot part.nc -o part.svg\n  cyclestart plot part.nc --layers programmed,compensated,tool -o part.svg"
+    )]
     Plot(PlotArguments),
     /// Read images of punched tape (EIA RS-244, ISO 840) to text, and punch text
     #[command(subcommand)]

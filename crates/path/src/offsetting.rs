@@ -4,7 +4,9 @@
 use base::{Alarm, Condition, Point};
 use meaning::{Act, Barrier, Command, Element, Interpreter, Offset};
 
-use crate::compensation::{Beside, Compensation, Corner, Fault, Join, NONE, Next, NextKind, Plan, Rules, Vector, Which};
+use crate::compensation::{
+    Beside, Compensation, Corner, Fault, Join, NONE, Next, NextKind, Plan, Rules, Vector, Which,
+};
 use crate::pieces::{Carried, Pieces};
 use crate::shape::{Part, RunBeside, Shaped};
 

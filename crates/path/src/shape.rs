@@ -150,7 +150,8 @@ impl Programmed {
                 (point, [0, 1].map(|index| on([first, second][index]) + beside.radius * normal[index]))
             }
             Programmed::Arc(arc) => {
-                let point: Point = std::array::from_fn(|axis| arc.from[axis] + (arc.to[axis] - arc.from[axis]) * fraction);
+                let point: Point =
+                    std::array::from_fn(|axis| arc.from[axis] + (arc.to[axis] - arc.from[axis]) * fraction);
                 let radius = arc.radius[0] + (arc.radius[1] - arc.radius[0]) * fraction;
                 let away = radius - beside.radius * arc.sweep.signum();
                 let (sin, cos) = libm::sincos(arc.start_angle + arc.sweep * fraction);

@@ -163,13 +163,17 @@ impl DrawnLayers<'_> {
             }
         };
         let ways = self.programmed.iter().chain(self.refused.iter().map(|refused| &refused.way));
-        for (piece, radius) in ways.map(|piece| (piece, 0.0)).chain(self.swept.iter().map(|piece| (piece, piece.feed))) {
+        for (piece, radius) in ways.map(|piece| (piece, 0.0)).chain(self.swept.iter().map(|piece| (piece, piece.feed)))
+        {
             if piece.kind == Kind::Feed {
                 let extent = piece.extent();
                 include(extent.min, radius);
                 include(extent.max, radius);
             } else {
-                [piece.from, piece.to].into_iter().filter(|end| near.contains(*end)).for_each(|end| include(end, radius));
+                [piece.from, piece.to]
+                    .into_iter()
+                    .filter(|end| near.contains(*end))
+                    .for_each(|end| include(end, radius));
             }
         }
         for (at, radius) in self.refused.iter().filter_map(|refused| refused.tool) {

@@ -1,7 +1,7 @@
 //! The legend: every line and sign that occurs, with its meaning, in rows below the views.
 
-use crate::canvas::Canvas;
 use crate::beside::{CONTOUR_WEIGHT, REFUSED_TOOL, REFUSED_WEIGHT, TOOL_WEIGHT};
+use crate::canvas::Canvas;
 use crate::colour::{ALARM, AXIS, CONTOUR, INK, RAPID, SWEPT, TOOL, hex};
 use crate::label::{Anchor, Label};
 use crate::layout::{MARGIN, SHEET_WIDTH};

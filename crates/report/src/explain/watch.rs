@@ -186,7 +186,8 @@ impl Watch {
         if event.kind != EventKind::BlockDone {
             block.event_count += 1;
             if block.events.len() < MOST_EVENTS {
-                let moves = matches!(event.kind, EventKind::Rapid { .. } | EventKind::Feed { .. } | EventKind::Arc { .. });
+                let moves =
+                    matches!(event.kind, EventKind::Rapid { .. } | EventKind::Feed { .. } | EventKind::Arc { .. });
                 let beside = session.beside().filter(|_| moves);
                 block.beside.extend(beside.map(|beside| (block.events.len(), *beside)));
                 block.events.push(event);

@@ -69,7 +69,13 @@ impl<'m> Strokes<'m> {
     }
 
     /// Draws what a move runs beside; true if that is the programmed way of its block.
-    pub fn beside(&self, drawing: &mut Drawing, beside: Option<&RunBeside>, event: &EventKind, stroke: &Stroke) -> bool {
+    pub fn beside(
+        &self,
+        drawing: &mut Drawing,
+        beside: Option<&RunBeside>,
+        event: &EventKind,
+        stroke: &Stroke,
+    ) -> bool {
         let Some(beside) = beside else { return false };
         drawing.swept(stroke, plane_of(beside.plane), beside.radius.abs());
         let (from, to) = match event {
