@@ -107,6 +107,10 @@ impl Worst {
         let side = job.side();
         for (index, element) in contour.elements.iter().enumerate().take(run.ran(contour.elements.len())) {
             let pieces: Vec<Form> = run.of(index).copied().collect();
+            // An element that both corners take up to the last digit has no piece; what comes before and after it is seen.
+            if pieces.is_empty() {
+                continue;
+            }
             for end in [pieces[0].from(), pieces[0].to()] {
                 self.take(beside(element, side, end), end, "along an element", program);
             }

@@ -161,7 +161,10 @@ impl Claim<'_> {
     fn main_piece(&self, element: usize) -> Result<(), String> {
         let programmed = &self.forms[element];
         let Some(main) = self.run.of(element).next() else {
-            return Err(format!("element {element}: no piece of it"));
+            // Both its corners take it up to the last digit: the tool stands beside it.
+            let stands = programmed.foot(self.run.end_before(element)).1;
+            let held = (stands - self.side).abs() <= self.exactness;
+            return if held { Ok(()) } else { Err(format!("element {element}: no piece of it")) };
         };
         let held = match (programmed, main) {
             (Form::Line(..), Form::Line(from, to)) => {
@@ -214,7 +217,7 @@ impl Claim<'_> {
         let Some(next) = self.forms.get(element + 1) else { return Ok(()) };
         let corner = Corner::new(&self.forms[element], next, self.side);
         let pieces: Vec<Form> = self.run.of(element).copied().collect();
-        let end = pieces[pieces.len() - 1].to();
+        let end = self.run.end_before(element + 1);
         let wrong =
             |what: &str| Err(format!("corner {element} ({} degrees): {what}, {pieces:?}", corner.turn.to_degrees()));
         if corner.is_tangent() {
@@ -227,7 +230,7 @@ impl Claim<'_> {
             // Of a short element the point can lie beside its start: then on the line or circle through it.
             let beside = [&self.forms[element], next].map(|form| form.foot(end).1);
             let meets = beside.iter().all(|beside| (beside - self.side).abs() <= self.exactness);
-            return if meets && pieces.len() == 1 { Ok(()) } else { wrong("the inside point is missed") };
+            return if meets && pieces.len() <= 1 { Ok(()) } else { wrong("the inside point is missed") };
         }
         seen.outside += 1;
         let stations = corner.stations(self.side, self.corners);

@@ -194,6 +194,12 @@ impl Run {
         &self.pieces[first..end]
     }
 
+    /// Where the tool is when an element's block begins.
+    pub fn end_before(&self, element: usize) -> Vector {
+        let before = self.pieces.iter().take_while(|piece| piece.element < element as i64);
+        before.last().map_or([0.0; 2], |piece| piece.form.to())
+    }
+
     /// How many elements have run, the first ones.
     pub fn ran(&self, elements: usize) -> usize {
         if self.alarm.is_none() {
@@ -273,12 +279,12 @@ impl Bench {
                 }
                 _ => continue,
             };
-            // The third axis alone.
-            if form.from() == form.to() && matches!(form, Form::Line(..)) {
+            // The third axis alone: in the plane nothing but the last digit moves.
+            if matches!(form, Form::Line(from, to) if apart(from, to) < 1e-12) {
                 continue;
             }
             if let Some(last) = run.pieces.last() {
-                assert!(apart(last.form.to(), form.from()) == 0.0, "a gap before {form:?} in\n{text}");
+                assert!(apart(last.form.to(), form.from()) < 1e-12, "a gap before {form:?} in\n{text}");
             }
             run.pieces.push(Piece { element, form });
         }
