@@ -248,7 +248,7 @@ impl Compensation {
         let near = Neighbours { before, now: &now.edge, next: next.as_ref(), after: after.as_ref() };
         let Some((which, depth)) = cut(&near, self.vector, &plan.after, radius) else { return Ok(()) };
         let which = match which {
-            Cut::Before => Which::This,
+            Cut::Before | Cut::Now => Which::This,
             Cut::Next => Which::Next,
             Cut::After => Which::After,
         };

@@ -3,6 +3,8 @@
 
 use super::corner::{Join, sweep_round};
 use super::edge::Edge;
+use std::f64::consts::PI;
+
 use super::vector::{NONE, Vector, add, cross, less, times};
 use crate::clearance::Curve;
 
@@ -25,7 +27,7 @@ pub(crate) fn cut(near: &Neighbours, start: Vector, corner: &Join, s: f64) -> Op
     let bends = |edge: &Edge| edge.is_arc();
     let depth = |edge: &Edge, other: Curve| {
         let nearest = pieces(now, start, corner, s).map(|piece| piece.distance(&other)).fold(f64::INFINITY, f64::min);
-        Some(s.abs() - nearest).filter(|depth| *depth > CUT_MM + unround(now) + unround(edge))
+        Some(s.abs() - nearest).filter(|depth| *depth > CUT_MM + unround(now, s) + unround(edge, s))
     };
     if let Some(next) = next {
         let any = bends(now) || bends(next);
@@ -46,6 +48,16 @@ pub(crate) fn cut(near: &Neighbours, start: Vector, corner: &Join, s: f64) -> Op
         }
     }
     // Going round a corner the tool can come back to a line as well.
+    // Beside its own end an arc of more than half a turn has its beginning.
+    if now.sweep.abs() > PI {
+        let own = ending(now, NONE, [NONE; 2]);
+        let nearest =
+            pieces(now, start, corner, s).skip(1).map(|piece| piece.distance(&own)).fold(f64::INFINITY, f64::min);
+        let depth = s.abs() - nearest;
+        if depth > CUT_MM + unround(now, s) {
+            return Some((Cut::Now, depth));
+        }
+    }
     let before = before.filter(|before| bends(now) || bends(before) || corner.places().len() > 1)?;
     depth(before, ending(before, times(way(now), -1.0), [NONE; 2])).map(|depth| (Cut::Before, depth))
 }
@@ -63,15 +75,23 @@ fn pieces(edge: &Edge, start: Vector, corner: &Join, s: f64) -> impl Iterator<It
     std::iter::once(own).chain(corner.places().windows(2).map(round))
 }
 
-/// By how much an arc's radius differs from its start to its end: rounded words make it so.
-fn unround(edge: &Edge) -> f64 {
-    if edge.is_arc() { (1.0 / edge.curvature[0].abs() - 1.0 / edge.curvature[1].abs()).abs() } else { 0.0 }
+/// By how much places beside an arc lie beside its circle, whose radius differs from its start to its end: rounded words
+/// make it so.
+fn unround(edge: &Edge, s: f64) -> f64 {
+    if !edge.is_arc() {
+        return 0.0;
+    }
+    let [first, last] = edge.curvature.map(|curvature| 1.0 / curvature.abs());
+    let growth = (first - last).abs();
+    let slope = growth / (first * edge.sweep.abs());
+    2.0 * growth + s.abs() * slope * slope
 }
 
 /// Which element is cut.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Cut {
     Before,
+    Now,
     Next,
     After,
 }
