@@ -2,6 +2,7 @@
 
 use crate::canvas::{Canvas, short};
 use crate::colour::{ALARM, CONTOUR, SWEPT, TOOL};
+use crate::ink::Ink;
 use crate::layers::DrawnLayers;
 use crate::path_data::PathData;
 use crate::piece::Piece;
@@ -13,7 +14,7 @@ pub(crate) const CONTOUR_WEIGHT: f64 = 1.3;
 pub(crate) const TOOL_WEIGHT: f64 = 0.9;
 pub(crate) const REFUSED_WEIGHT: f64 = 3.4;
 
-/// What attributes of a tool that does not fit.
+/// The look of a tool that does not fit, beside its colour.
 pub(crate) const REFUSED_TOOL: &str = "fill-opacity=\"0.1\" stroke-width=\"1.6\"";
 
 /// Draws what the tool sweeps, under everything else: of a move in the plane, a line as wide as the tool with round ends.
@@ -34,12 +35,13 @@ pub(crate) fn draw_swept(canvas: &mut Canvas, view: &View, layers: &DrawnLayers)
     canvas.close();
 }
 
-/// Draws the programmed contour.
-pub(crate) fn draw_contour(canvas: &mut Canvas, view: &View, layers: &DrawnLayers) {
+/// Draws the programmed contour, thinner than the path beside it where that is dense.
+pub(crate) fn draw_contour(canvas: &mut Canvas, view: &View, layers: &DrawnLayers, ink: &Ink) {
     if layers.programmed.is_empty() {
         return;
     }
-    let look = format!("stroke=\"{CONTOUR}\" stroke-width=\"{CONTOUR_WEIGHT}\" stroke-linecap=\"round\"");
+    let weight = short(ink.feed_weight.min(CONTOUR_WEIGHT));
+    let look = format!("stroke=\"{CONTOUR}\" stroke-width=\"{weight}\" stroke-linecap=\"round\"");
     canvas.open_clipped(&view.panel, &look);
     draw_ways(canvas, view, &layers.programmed);
     canvas.close();

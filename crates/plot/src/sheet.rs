@@ -154,7 +154,7 @@ fn draw_plan(canvas: &mut Canvas, view: &View, content: &Content, palette: &Pale
         draw_strokes(canvas, view, &content.drawn.pieces, palette, &ink);
         draw_down_cuts(canvas, view, cuts, palette, &mut places);
     }
-    draw_contour(canvas, view, &content.layers);
+    draw_contour(canvas, view, &content.layers, &ink);
     draw_refused(canvas, view, &content.layers, true);
     draw_plan_axes(canvas, view, &mut places);
     draw_marks(canvas, view, content.marks, &ink, &mut places);
@@ -168,7 +168,7 @@ fn draw_isometric(canvas: &mut Canvas, view: &View, content: &Content, palette: 
     if content.layers.path {
         draw_strokes(canvas, view, &content.drawn.pieces, palette, &ink);
     }
-    draw_contour(canvas, view, &content.layers);
+    draw_contour(canvas, view, &content.layers, &ink);
     draw_refused(canvas, view, &content.layers, false);
     draw_isometric_axes(canvas, view, frame, &mut places);
     draw_marks(canvas, view, content.marks, &ink, &mut places);

@@ -8,7 +8,7 @@ use crate::view::View;
 const MOST_KEPT: usize = 20_000;
 
 /// More circles than this are not drawn.
-const MOST_DRAWN: usize = 300;
+const MOST_DRAWN: usize = 80;
 
 /// The least distance of two places that are kept, at first, in mm.
 const FIRST_CELL_MM: f64 = 1e-3;

@@ -1,6 +1,6 @@
 //! The drawing from outside: what a caller puts in and what the picture must show.
 
-use plot::{Arc, Drawing, Kind, Mark, MarkKind, Plane, PngError, Stroke, Title};
+use plot::{Arc, Drawing, Kind, Layer, Mark, MarkKind, Plane, PngError, Stroke, Title};
 use resvg::usvg;
 
 fn drawing() -> Drawing {
@@ -231,4 +231,79 @@ fn a_png_is_as_wide_as_asked_and_not_empty() {
     }
     assert!(matches!(square().png(0), Err(PngError::Width(0))));
     assert!(matches!(square().png(1 << 20), Err(PngError::Width(_))));
+}
+
+/// A square of 40 mm side, and a tool of 5 mm that runs outside it.
+fn beside(layers: &[Layer], plane: Plane) -> Drawing {
+    let mut drawing = drawing();
+    drawing.show(layers);
+    let square = |half: f64| [[-half, -half], [-half, half], [half, half], [half, -half], [-half, -half]];
+    for (way, run) in square(20.0).windows(2).zip(square(25.0).windows(2)) {
+        let stroke = |ends: &[[f64; 2]]| line(Kind::Feed, [ends[0][0], ends[0][1], 0.0], [ends[1][0], ends[1][1], 0.0]);
+        drawing.stroke(&stroke(run));
+        drawing.swept(&stroke(run), plane, 5.0);
+        drawing.programmed(&stroke(way));
+    }
+    drawing
+}
+
+#[test]
+fn the_layers_that_are_drawn_stand_in_the_legend_and_no_others() {
+    let all = [Layer::Programmed, Layer::Compensated, Layer::Tool];
+    let names = ["programmed contour", "feed 500 mm/min", "swept by the tool"];
+    for chosen in 0..8 {
+        let is_chosen = |layer: usize| chosen >> layer & 1 == 1;
+        let layers: Vec<_> = (0..3).filter(|layer| is_chosen(*layer)).map(|layer| all[layer]).collect();
+        let svg = beside(&layers, Plane::Xy).svg();
+        for (layer, name) in names.iter().enumerate() {
+            assert_eq!(count(&svg, name), usize::from(is_chosen(layer)), "{layers:?}: {name}");
+        }
+        tree(&svg).expect("well-formed");
+    }
+}
+
+#[test]
+fn the_path_alone_is_drawn_as_if_there_were_no_layers() {
+    let mut alone = drawing();
+    let run = [[-25.0, -25.0], [-25.0, 25.0], [25.0, 25.0], [25.0, -25.0], [-25.0, -25.0]];
+    for ends in run.windows(2) {
+        alone.stroke(&line(Kind::Feed, [ends[0][0], ends[0][1], 0.0], [ends[1][0], ends[1][1], 0.0]));
+    }
+    assert_eq!(beside(&[Layer::Compensated], Plane::Xy).svg(), alone.svg());
+}
+
+#[test]
+fn the_tool_is_as_large_as_it_is_and_stays_in_the_picture() {
+    let svg = beside(&[Layer::Compensated, Layer::Tool], Plane::Xy).svg();
+    let of = |name: &str, behind: &str| -> f64 {
+        let from = svg.find(behind).expect("drawn");
+        let text = &svg[from..][svg[from..].find(name).expect("with this attribute") + name.len()..];
+        text[..text.find('"').expect("closed")].parse().expect("a number")
+    };
+    let radius = of("r=\"", "<circle");
+    assert!((of("stroke-width=\"", "stroke-linecap=\"round\" stroke-linejoin") - 2.0 * radius).abs() < 0.02, "{svg}");
+    // Four corners and the legend's own.
+    assert_eq!(count(&svg, "<circle"), 5);
+    // The square that it sweeps, 60 mm wide, fills the plan but for its inset.
+    assert!(radius > 20.0 && svg.contains("tool, radius 5 mm"), "{radius}");
+}
+
+#[test]
+fn a_tool_of_another_plane_is_told_in_words() {
+    let svg = beside(&[Layer::Compensated, Layer::Tool], Plane::Zx).svg();
+    assert!(svg.contains("only where it is compensated in the XY plane") && !svg.contains("swept"), "{svg}");
+}
+
+#[test]
+fn what_the_tool_does_not_fit_beside_is_red_whatever_is_drawn() {
+    for layers in [&[][..], &[Layer::Compensated], &[Layer::Programmed]] {
+        let mut drawing = beside(layers, Plane::Xy);
+        let way = line(Kind::Feed, [0.0, 20.0, 0.0], [4.0, 20.0, 0.0]);
+        drawing.refused(&way, Plane::Xy, [2.0, 25.0, 0.0], 5.0);
+        let svg = drawing.svg();
+        assert!(svg.contains("refused: the tool does not fit beside it"), "{svg}");
+        // In plan with the tool, which is in the legend too.
+        assert_eq!(count(&svg, "<circle"), 2);
+        tree(&svg).expect("well-formed");
+    }
 }
