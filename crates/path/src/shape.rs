@@ -183,3 +183,44 @@ impl Default for Shaped {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use base::AXES;
+
+    fn point(x: f64, y: f64) -> Point {
+        let mut point = [0.0; AXES];
+        (point[0], point[1]) = (x, y);
+        point
+    }
+
+    fn beside(radius: f64, way: Element) -> RunBeside {
+        RunBeside { part: Part::Along, radius, corner: Corner::None, way: Some(way), plane: Plane::Xy, axes: [0, 1] }
+    }
+
+    #[test]
+    fn the_tool_touches_a_line_on_its_side() {
+        let way = Element { from: [0.0, 0.0], to: [30e6, 40e6], turn: None };
+        for (radius, at) in [(5.0, [11.0, 23.0]), (-5.0, [19.0, 17.0])] {
+            let beside = beside(radius, way);
+            let programmed = beside.programmed(&point(0.0, 0.0), &point(0.0, 0.0)).expect("a way");
+            let touched = programmed.touched(&beside, 0.5);
+            assert!((touched[0] - at[0]).abs() < 1e-12 && (touched[1] - at[1]).abs() < 1e-12, "{touched:?}");
+        }
+    }
+
+    #[test]
+    fn the_tool_touches_an_arc_inside_and_outside() {
+        // From (10, 0) by (0, 10), or the other way, to (-10, 0).
+        for (clockwise, radius, away) in [(false, 3.0, 7.0), (false, -3.0, 13.0), (true, 3.0, 13.0), (true, -3.0, 7.0)]
+        {
+            let turn = Some(Turn { center: [0.0; 2], clockwise, full_circle: false });
+            let beside = beside(radius, Element { from: [10e6, 0.0], to: [-10e6, 0.0], turn });
+            let programmed = beside.programmed(&point(0.0, 0.0), &point(0.0, 0.0)).expect("a way");
+            let touched = programmed.touched(&beside, 0.5);
+            let side = if clockwise { -away } else { away };
+            assert!(touched[0].abs() < 1e-9 && (touched[1] - side).abs() < 1e-9, "{clockwise} {radius}: {touched:?}");
+        }
+    }
+}
