@@ -12,7 +12,7 @@ use crate::motion;
 use crate::program::{Call, Outcome, Program};
 
 /// The alarm of a row that the program knows and does not execute yet.
-const NOT_YET_BUILT: &str = "NOT_YET_BUILT";
+const NOT_YET_BUILT: &str = "does not execute it yet";
 /// What the operator is told of such an action.
 const NOT_BUILT_YET: &str = "not built yet";
 
@@ -45,7 +45,7 @@ fn judge_one(case: &Case, folder: &Path, mode: Mode, program: Program) -> Result
     {
         let name = waits.name();
         faults.push(format!(
-            "it no longer answers {NOT_YET_BUILT}: take out `waits = \"{name}\"` and write what is right"
+            "it no longer answers that it is not built yet: take out `waits = \"{name}\"` and write what is right"
         ));
     }
     let expected = Expected { folder, mode };

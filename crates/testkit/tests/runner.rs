@@ -101,7 +101,7 @@ fn the_keys_of_case_toml_are_checked() {
 #[test]
 fn a_waiting_case_fails_as_soon_as_it_works() {
     let case = format!("{CASE}waits = \"macro\"\nexit = 1\n");
-    let refused = "{\"event\":\"alarm\",\"name\":\"NOT_YET_BUILT\"}\n";
+    let refused = "{\"event\":\"alarm\",\"text\":\"cyclestart does not execute it yet\"}\n";
     assert_eq!(judged(&[("case.toml", &case)], refused, "", 1), Ok(()));
     assert_eq!(judged(&[("case.toml", &case), ("out.trace", refused)], refused, "", 1), Ok(()));
     assert!(refusal(&[("case.toml", &case)], "{\"event\":\"alarm\",\"name\":\"ARC\"}\n", "", 1).contains("no longer"));
