@@ -255,6 +255,8 @@ conditions! {
     IntermediatePointMissing = "intermediate-point-missing",
 
     // The skip signal.
+    /// A move under tool radius compensation that goes a way of its own: from one side, or with the tool tilting.
+    WayInCompensation = "way-in-compensation",
     /// An arc would begin tool radius compensation.
     ArcStartsCompensation = "arc-starts-compensation",
     /// An arc would end tool radius compensation.

@@ -136,6 +136,14 @@ impl Reading<'_> {
         });
     }
 
+    /// Refuses a move that goes a way of its own under compensation: nothing is known of a path beside it.
+    pub fn refuse_in_compensation(&self) -> Result<(), Alarm> {
+        if self.command.side == Side::Off || self.next.d == 0 {
+            return Ok(());
+        }
+        Err(self.motion_alarm(base::Condition::WayInCompensation))
+    }
+
     /// Refuses a code that goes to places of the machine, on a control that does so under compensation; elsewhere the
     /// tool's offset is left out on these axes.
     pub fn leave_offset(&mut self, axes: base::AxisSet) -> Result<(), Alarm> {

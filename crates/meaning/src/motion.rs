@@ -38,7 +38,10 @@ impl Reading<'_> {
                         let feed = Feed { tapping: true, ..self.feed_to(&to)? };
                         self.command.body = Body::Line { to, feed };
                     }
-                    Meaning::OneSidedPositioning => self.one_sided(to, moved),
+                    Meaning::OneSidedPositioning => {
+                        self.refuse_in_compensation()?;
+                        self.one_sided(to, moved);
+                    }
                     _ => self.command.body = Body::Rapid { to, kind: self.rapid_kind },
                 }
                 self.next.machine = to;

@@ -146,6 +146,7 @@ impl Reading<'_> {
                 match parts.clamp(1.0, MOST_PARTS) as u32 {
                     1 => Body::Line { to: machine, feed: Feed { way_mm: way, ..feed } },
                     parts => {
+                        self.refuse_in_compensation()?;
                         let feed = Feed { way_mm: way / f64::from(parts), ..feed };
                         Body::Tip(TipMove { kinematics: tip, upright: to, machine, lengths, parts, feed })
                     }

@@ -191,7 +191,7 @@ impl Compensation {
             // A known end has been judged when it was made.
             if !self.doubtful && known.is_none() {
                 judge_room(&now.edge, [self.radius, radius], &rules.table)
-                    .and_then(|()| judge(&now.edge, vectors, &rules.table))
+                    .and_then(|()| judge(&now.edge, vectors, radius, &rules.table))
                     .map_err(|fault| (Which::This, fault))?;
             }
             if now.edge.is_arc() {
@@ -219,7 +219,7 @@ impl Compensation {
         if !end(next, after, end_of_next) {
             return Ok(false);
         }
-        judge(&next.edge, [plan.after.last(), end_of_next.first()], &rules.table)?;
+        judge(&next.edge, [plan.after.last(), end_of_next.first()], next.offset.radius, &rules.table)?;
         Ok(true)
     }
 
@@ -290,7 +290,7 @@ impl Compensation {
         }
         let mut join = Join::default();
         let meet = corner::join(&self.last, &now.edge, self.radius, now.offset.round_corners, &mut join);
-        if !meet || self.radius != now.offset.radius || join.corner != Corner::Outside {
+        if !meet || self.radius * now.offset.radius <= 0.0 || join.corner != Corner::Outside {
             return None;
         }
         if join.first() == self.vector {

@@ -46,14 +46,15 @@ pub(crate) fn judge_room(edge: &Edge, s: [f64; 2], rules: &CompensationRules) ->
     Ok(())
 }
 
-/// Judges the path beside an element from one vector to another.
-pub(crate) fn judge(edge: &Edge, vectors: [Vector; 2], rules: &CompensationRules) -> Result<(), Fault> {
+/// Judges the path beside an element from one vector to another, for a tool beside it by `s` at its end.
+pub(crate) fn judge(edge: &Edge, vectors: [Vector; 2], s: f64, rules: &CompensationRules) -> Result<(), Fault> {
     if !edge.is_arc() {
         let way = edge.length + dot(less(vectors[1], vectors[0]), edge.tangent[0]);
         return if way < -BACKWARDS_MM { Err(Fault::Reversed(-way)) } else { Ok(()) };
     }
     let sweep = edge.sweep_beside(vectors) * edge.sweep.signum();
-    let radius = (1.0 / edge.curvature[1].abs()).max(BACKWARDS_MM);
+    // That of the centre's path.
+    let radius = ((1.0 - s * edge.curvature[1]) / edge.curvature[1].abs()).max(0.0);
     if sweep * radius < -BACKWARDS_MM {
         return Err(Fault::Reversed(-sweep * radius));
     }
