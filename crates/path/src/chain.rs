@@ -45,21 +45,21 @@ pub fn run_chain(chain: &[Link], rules: &ChainRules, mut each: impl FnMut(&Shape
         let Some(edge) = Edge::new(element) else { continue };
         let now = Beside { edge, offset: *offset };
         let (next, at) = next_of(chain, index);
-        let mut plan = Plan::default();
-        if compensation.plan(&now, &next, None, &rules, &mut plan).is_err() {
+        let (mut plan, mut end) = (Plan::default(), Join::default());
+        if compensation.plan(&now, &next, (false, &mut end), &rules, &mut plan).is_err() {
             return Some(index);
         }
         let after = next_of(chain, at).0;
         let fits = next.element().is_none_or(|beside| {
-            Compensation::look_past(&now, &plan, beside, &after, &rules, &mut Join::default()).is_ok()
+            Compensation::look_past(&now, &end, beside, &after, &rules, &mut Join::default()).is_ok()
         });
-        if !fits || compensation.look_about(&now, &plan, (&next, &after), &rules).is_err() {
+        if !fits || compensation.look_about(&now, &plan, &end, (&next, &after), &rules).is_err() {
             return Some(index);
         }
-        compensation.take(&now, &plan, &next);
+        compensation.take(&now, &plan, &end, &next);
         let from = position;
         let Beside { edge, offset } = &now;
-        let carried = Carried { element, edge, offset, plan: &plan, from: &from, certain: true };
+        let carried = Carried { element, edge, offset, plan: &plan, end: &end, from: &from, certain: true };
         let mut pieces = Pieces::default();
         let mut more = pieces.begin(&carried, &operation, &mut position, &mut shaped);
         while more {

@@ -80,13 +80,12 @@ pub(crate) enum Which {
     After,
 }
 
-/// How an element is run: by way of these places, all as vectors from its programmed start or end.
+/// How an element is run, beside the way from its end to the next element's path: that its end is, whose first place ends
+/// its own path. All places are vectors from its programmed start or end.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Plan {
     /// Round the corner at its start, where the block before stopped short of it: the first place is where it stands.
     pub before: Option<Join>,
-    /// From its end to the next element's path; its own path ends at the first place.
-    pub after: Join,
     /// The angle of its own path, radians; 0 for a line.
     pub sweep: f64,
     /// The block begins compensation.
@@ -160,15 +159,15 @@ impl Compensation {
         self.doubtful = false;
     }
 
-    /// How the element is run, with what follows it; `known` is its end as [`Compensation::look_past`] has made it.
+    /// How the element is run, with what follows it, and its end, which [`Compensation::look_past`] may have made already.
     ///
     /// # Errors
     /// The block is not run: which element is at fault. Checking on, [`Compensation::pass`] goes past it.
     pub(crate) fn plan(
-        &mut self,
+        &self,
         now: &Beside,
         next: &Next,
-        known: Option<&Join>,
+        (is_ended, end): (bool, &mut Join),
         rules: &Rules,
         plan: &mut Plan,
     ) -> Result<(), (Which, Fault)> {
@@ -178,26 +177,31 @@ impl Compensation {
             if now.edge.is_arc() {
                 return Err((Which::This, Fault::StartsByArc));
             }
-            plan.after = begin(now, next, rules.start);
-        } else {
-            match known {
-                Some(known) => plan.after = *known,
-                None if end(now, next, &mut plan.after) => {}
-                None if self.doubtful => plan.after = Join::at(now.edge.normal(1, radius)),
-                None => return Err((Which::Next, Fault::Apart)),
+            *end = begin(now, next, rules.start);
+            return Ok(());
+        }
+        if !is_ended && !end_of(now, next, end) {
+            if !self.doubtful {
+                return Err((Which::Next, Fault::Apart));
             }
+            *end = Join::at(now.edge.normal(1, radius));
+        }
+        if self.stopped {
             plan.before = self.way_round(now, rules.restart);
-            let vectors = [plan.before.map_or(self.vector, |before| before.last()), plan.after.first()];
-            // A known end has been judged when it was made.
-            if !self.doubtful && known.is_none() {
-                judge_room(&now.edge, [self.radius, radius], &rules.table)
-                    .and_then(|()| judge(&now.edge, vectors, radius, &rules.table))
-                    .map_err(|fault| (Which::This, fault))?;
-            }
-            if now.edge.is_arc() {
-                // More than a turn is judged, but for what rounding adds and where nothing is judged.
-                plan.sweep = now.edge.sweep_beside(vectors).clamp(-TAU, TAU);
-            }
+        }
+        // A known end has been judged when it was made.
+        if is_ended && !now.edge.is_arc() {
+            return Ok(());
+        }
+        let vectors = [plan.before.map_or(self.vector, |before| before.last()), end.first()];
+        if !self.doubtful && !is_ended {
+            judge_room(&now.edge, [self.radius, radius], &rules.table)
+                .and_then(|()| judge(&now.edge, vectors, radius, &rules.table))
+                .map_err(|fault| (Which::This, fault))?;
+        }
+        if now.edge.is_arc() {
+            // More than a turn is judged, but for what rounding adds and where nothing is judged.
+            plan.sweep = now.edge.sweep_beside(vectors).clamp(-TAU, TAU);
         }
         Ok(())
     }
@@ -209,17 +213,17 @@ impl Compensation {
     /// The tool does not fit beside it.
     pub(crate) fn look_past(
         now: &Beside,
-        plan: &Plan,
+        end: &Join,
         next: &Beside,
         after: &Next,
         rules: &Rules,
         end_of_next: &mut Join,
     ) -> Result<bool, Fault> {
         judge_room(&next.edge, [now.offset.radius, next.offset.radius], &rules.table)?;
-        if !end(next, after, end_of_next) {
+        if !end_of(next, after, end_of_next) {
             return Ok(false);
         }
-        judge(&next.edge, [plan.after.last(), end_of_next.first()], next.offset.radius, &rules.table)?;
+        judge(&next.edge, [end.last(), end_of_next.first()], next.offset.radius, &rules.table)?;
         Ok(true)
     }
 
@@ -233,6 +237,7 @@ impl Compensation {
         &self,
         now: &Beside,
         plan: &Plan,
+        end: &Join,
         (next, after): (&Next, &Next),
         rules: &Rules,
     ) -> Result<(), (Which, Fault)> {
@@ -246,7 +251,7 @@ impl Compensation {
         let (next, after) = (edge_of(next).filter(|_| !leads_away), edge_of(after));
         let before = Some(&self.last).filter(|_| !self.leads);
         let near = Neighbours { before, now: &now.edge, next: next.as_ref(), after: after.as_ref() };
-        let Some((which, depth)) = cut(&near, self.vector, &plan.after, radius) else { return Ok(()) };
+        let Some((which, depth)) = cut(&near, self.vector, end, radius) else { return Ok(()) };
         let which = match which {
             Cut::Before | Cut::Now => Which::This,
             Cut::Next => Which::Next,
@@ -256,8 +261,8 @@ impl Compensation {
     }
 
     /// The planned element is run.
-    pub(crate) fn take(&mut self, now: &Beside, plan: &Plan, next: &Next) {
-        self.vector = plan.after.last();
+    pub(crate) fn take(&mut self, now: &Beside, plan: &Plan, end: &Join, next: &Next) {
+        self.vector = end.last();
         self.axes = now.offset.axes;
         self.on = true;
         self.radius = now.offset.radius;
@@ -285,7 +290,7 @@ impl Compensation {
 
     /// Round the outside corner at which the block before stopped, by the policy that wants it.
     fn way_round(&self, now: &Beside, restart: CompensationRestart) -> Option<Join> {
-        if !self.stopped || restart != CompensationRestart::Corner {
+        if restart != CompensationRestart::Corner {
             return None;
         }
         let mut join = Join::default();
@@ -305,7 +310,7 @@ impl Compensation {
 }
 
 /// The end of an element: where the next one begins, or square to its own end. False if there is none.
-fn end(now: &Beside, next: &Next, join: &mut Join) -> bool {
+fn end_of(now: &Beside, next: &Next, join: &mut Join) -> bool {
     let Beside { edge, offset } = now;
     let Some(next) = next.element() else {
         *join = Join::at(edge.normal(1, offset.radius));

@@ -35,34 +35,31 @@ pub(crate) struct Offsetting {
     /// The block whose ways are counted, and how many of them have been taken.
     block: u64,
     part: u8,
-    /// What is known of a way: the one behind that taken last, if `is_known`.
-    ahead: Ahead,
-    is_known: bool,
+    /// The way being run, the next one and the one behind that, in turn; `now` is the place of the first. They stay in
+    /// their places: to move them would cost more than the geometry.
+    ways: [Way; 3],
+    now: usize,
     /// The plan being carried out.
     plan: Plan,
     pieces: Pieces,
-    /// What follows the way behind it, in the making.
-    after: Next,
     /// The refusal.
     alarm: Option<Alarm>,
     /// How the way back to the path follows from that, or the way that the tool does not fit beside.
     beside: Option<RunBeside>,
 }
 
-/// A way with what follows it.
+/// A way in the buffer.
 #[derive(Default)]
-struct Ahead {
-    block: u64,
-    part: u8,
-    way: Beside,
-    /// Its end, if it is known.
-    end: Join,
+struct Way {
+    /// Its shape, or why there is none.
     next: Next,
-    /// Where what follows stands, counted from the way's own block.
     at: At,
+    /// Its end, if that has been made with the way behind it.
+    end: Join,
+    is_ended: bool,
 }
 
-/// A way in the buffer: its block's place, counted from the one being executed, and its number in the block.
+/// Where a way stands: its block's place in the buffer, counted from the one being executed, and its number in the block.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 struct At {
     index: usize,
@@ -125,7 +122,8 @@ impl Offsetting {
                 if !stood_beside {
                     return Ok(Taken::AsItIs);
                 }
-                let Offset { radius, plane, .. } = self.ahead.way.offset;
+                let (.., last) = self.three();
+                let Offset { radius, plane, .. } = last.next.beside.offset;
                 let (part, corner) = (Part::Cancel, Corner::None);
                 self.beside = Some(RunBeside { part, radius, corner, way: Some(element), plane, axes });
                 return Ok(Taken::LeadsBack);
@@ -133,28 +131,35 @@ impl Offsetting {
             self.alarm = Some(alarm_of(Fault::EndsByArc, command, axes, 0.0));
             return Ok(Taken::Refused);
         };
-        if !self.is_known || (self.ahead.block, self.ahead.part) != (block, part) {
-            self.is_known = false;
-            if !self.ahead.way.edge.take(&element) {
+        let (now, next, after) = self.three();
+        let is_known = now.is_ended && (now.at.block, now.at.part) == (block, part);
+        if is_known {
+            // Its block has come to the front meanwhile.
+            next.at.index = next.at.index.saturating_sub(now.at.index);
+            now.at.index = 0;
+        } else {
+            now.is_ended = false;
+            now.at = At { index: 0, part, parts: command.parts(), block };
+            if !now.next.beside.edge.take(&element) {
                 return Ok(Taken::AsItIs);
             }
-            let parts = command.parts();
-            self.ahead.at = look(upstream, At { index: 0, part, parts, block }, axes, &mut self.ahead.next)?;
-            self.ahead.way.offset = offset;
+            now.next.beside.offset = offset;
+            look(upstream, &now.at, axes, next)?;
         }
-        let mut behind = self.ahead.at;
-        self.after.kind = NextKind::Unseen;
-        if self.ahead.next.kind == NextKind::Element {
-            behind = look(upstream, behind, axes, &mut self.after)?;
+        after.next.kind = NextKind::Unseen;
+        if next.next.kind == NextKind::Element {
+            look(upstream, &next.at, axes, after)?;
         }
         self.part += 1;
-        match self.run(upstream, &element, behind, position, shaped) {
+        match self.run(upstream, &element, position, shaped) {
             Ok(true) => Ok(Taken::Piece),
             Ok(false) => Ok(Taken::Nothing),
             Err((at, fault)) => {
-                let Offset { radius, plane, .. } = self.ahead.way.offset;
-                self.compensation.pass(&self.ahead.way);
-                self.is_known = false;
+                let (now, ..) = self.three();
+                now.is_ended = false;
+                let refused = now.next.beside;
+                let Offset { radius, plane, .. } = refused.offset;
+                self.compensation.pass(&refused);
                 if let Some(command) = upstream.look_ahead(at.index)? {
                     let way = command.element(axes, at.part, &mut element).then_some(element);
                     self.alarm = Some(alarm_of(fault, command, axes, radius.abs()));
@@ -166,6 +171,13 @@ impl Offsetting {
         }
     }
 
+    /// The way being run, the next one and the one behind that.
+    #[inline]
+    fn three(&mut self) -> (&mut Way, &mut Way, &mut Way) {
+        let [a, b, c] = &mut self.ways;
+        in_turn(self.now, (a, b, c))
+    }
+
     /// Runs the way at hand, if it and the next one can be run; false if it has no length.
     ///
     /// # Errors
@@ -174,12 +186,11 @@ impl Offsetting {
         &mut self,
         upstream: &Interpreter,
         element: &Element,
-        behind: At,
         position: &mut Point,
         shaped: &mut Shaped,
     ) -> Result<bool, (At, Fault)> {
-        let this = At { index: 0, part: self.part.saturating_sub(1), parts: 1, block: self.block };
-        let Offsetting { compensation, ahead, is_known, plan, pieces, after, .. } = self;
+        let Offsetting { compensation, ways: [a, b, c], now: turn, plan, pieces, .. } = self;
+        let (now, next, after) = in_turn(*turn, (a, b, c));
         let policies = &upstream.fitting().policies;
         let rules = Rules {
             start: policies.compensation_start,
@@ -187,31 +198,29 @@ impl Offsetting {
             cut: policies.compensation_cut,
             table: upstream.control().functions.compensation,
         };
-        let Ahead { way, end, next, at, .. } = ahead;
+        let (this, place_of_next, behind) = (now.at, next.at, after.at);
         let place = |(which, fault)| match which {
             Which::This => (this, fault),
-            Which::Next => (*at, fault),
+            Which::Next => (place_of_next, fault),
             Which::After => (behind, fault),
         };
-        compensation.plan(way, next, is_known.then_some(&*end), &rules, plan).map_err(place)?;
-        compensation.look_about(way, plan, (next, after), &rules).map_err(place)?;
-        *is_known = false;
-        if let Some(beside) = next.element() {
-            let fits = Compensation::look_past(way, plan, beside, after, &rules, end);
-            *is_known = fits.map_err(|fault| (*at, fault))? && after.kind != NextKind::Unseen;
+        let way = &now.next.beside;
+        compensation.plan(way, &next.next, (now.is_ended, &mut now.end), &rules, plan).map_err(place)?;
+        compensation.look_about(way, plan, &now.end, (&next.next, &after.next), &rules).map_err(place)?;
+        next.is_ended = false;
+        if let Some(beside) = next.next.element() {
+            let fits = Compensation::look_past(way, &now.end, beside, &after.next, &rules, &mut next.end);
+            next.is_ended = fits.map_err(|fault| place((Which::Next, fault)))? && after.next.kind != NextKind::Unseen;
         }
         let certain = !compensation.is_doubtful();
-        compensation.take(way, plan, next);
+        compensation.take(way, plan, &now.end, &next.next);
         let from = *position;
-        let carried = Carried { element, edge: &way.edge, offset: &way.offset, plan, from: &from, certain };
+        let Beside { edge, offset } = way;
+        let carried = Carried { element, edge, offset, plan, end: &now.end, from: &from, certain };
         let has_length = pieces.begin(&carried, upstream.current(), position, shaped);
-        // The way behind it is the next one's turn.
-        if *is_known {
-            (ahead.block, ahead.part) = (at.block, at.part);
-            *at = At { index: behind.index - at.index, ..behind };
-            *way = next.beside;
-            *next = *after;
-        }
+        // The next one's turn.
+        now.is_ended = false;
+        *turn = (*turn + 1) % 3;
         Ok(has_length)
     }
 
@@ -231,34 +240,45 @@ impl Offsetting {
     }
 }
 
-/// Finds what follows a way in the buffer, and where that stands.
-fn look(upstream: &mut Interpreter, way: At, axes: [u8; 2], next: &mut Next) -> Result<At, Barrier> {
-    let mut at = way;
+/// Three things, the one at `turn` first.
+#[inline]
+fn in_turn<T>(turn: usize, (a, b, c): (T, T, T)) -> (T, T, T) {
+    match turn {
+        0 => (a, b, c),
+        1 => (b, c, a),
+        _ => (c, a, b),
+    }
+}
+
+/// Finds what follows a way in the buffer.
+fn look(upstream: &mut Interpreter, way: &At, axes: [u8; 2], found: &mut Way) -> Result<(), Barrier> {
+    let Way { next, at, .. } = found;
     let mut still = 0;
     let mut element = Element::default();
+    *at = *way;
     next.kind = NextKind::Unseen;
     loop {
         (at.index, at.part) = if at.part + 1 < at.parts { (at.index, at.part + 1) } else { (at.index + 1, 0) };
         let Some(command) = upstream.look_ahead(at.index)?.filter(|command| !command.is_refused()) else {
-            return Ok(at);
+            return Ok(());
         };
         at.block = command.block;
         at.parts = command.parts();
         if command.drops_offset(axes) {
             next.kind = NextKind::Ends;
-            return Ok(at);
+            return Ok(());
         }
         if command.element(axes, at.part, &mut element) && next.beside.edge.take(&element) {
             next.kind = NextKind::Ends;
             if let Some(offset) = command.offset() {
                 (next.kind, next.beside.offset) = (NextKind::Element, offset);
             }
-            return Ok(at);
+            return Ok(());
         }
         if at.part == 0 {
             still += 1;
             if still > BRIDGED {
-                return Ok(at);
+                return Ok(());
             }
         }
     }

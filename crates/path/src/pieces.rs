@@ -22,6 +22,7 @@ pub(crate) struct Pieces {
     edge: Edge,
     offset: Offset,
     plan: Plan,
+    end: Join,
     /// Where the axes stood before it.
     from: Point,
 }
@@ -36,6 +37,8 @@ pub(crate) struct Carried<'c> {
     pub offset: &'c Offset,
     /// The plan.
     pub plan: &'c Plan,
+    /// Its end.
+    pub end: &'c Join,
     /// Where the axes stood before it.
     pub from: &'c Point,
     /// Where it begins is certain.
@@ -57,7 +60,7 @@ impl Pieces {
                 continue;
             }
             if index + 1 < count {
-                let Carried { element, edge, offset, plan, from, certain } = *work;
+                let Carried { element, edge, offset, plan, end, from, certain } = *work;
                 *self = Pieces {
                     count: count as u8,
                     next: index as u8 + 1,
@@ -66,6 +69,7 @@ impl Pieces {
                     edge: *edge,
                     offset: *offset,
                     plan: *plan,
+                    end: *end,
                     from: *from,
                 };
             }
@@ -79,8 +83,8 @@ impl Pieces {
         while self.is_open() {
             let index = usize::from(self.next);
             self.next += 1;
-            let Pieces { element, edge, offset, plan, from, certain, .. } = self;
-            let work = Carried { element, edge, offset, plan, from, certain: *certain };
+            let Pieces { element, edge, offset, plan, end, from, certain, .. } = self;
+            let work = Carried { element, edge, offset, plan, end, from, certain: *certain };
             if work.piece(operation, index, position, shaped) {
                 return true;
             }
@@ -96,7 +100,7 @@ impl Carried<'_> {
     }
 
     fn count(&self) -> usize {
-        self.ahead() + self.plan.after.places().len()
+        self.ahead() + self.end.places().len()
     }
 
     /// Writes a piece; false if it has no length.
@@ -105,7 +109,7 @@ impl Carried<'_> {
         let last = index + 1 == self.count();
         let (join, step, programmed) = match (index.checked_sub(ahead), &self.plan.before) {
             (None, Some(before)) => (before, index + 1, self.element.from),
-            (behind, _) => (&self.plan.after, behind.unwrap_or(0), self.element.to),
+            (behind, _) => (self.end, behind.unwrap_or(0), self.element.to),
         };
         let (Some(&vector), Some(end)) = (join.places().get(step), end_of(operation)) else { return false };
         let axes = self.offset.axes;
@@ -152,7 +156,7 @@ impl Carried<'_> {
         *beside = Some(RunBeside {
             part,
             radius: self.offset.radius,
-            corner: if along { self.plan.after.corner } else { Corner::None },
+            corner: if along { self.end.corner } else { Corner::None },
             way: along.then_some(*self.element),
             plane: self.offset.plane,
             axes: self.offset.axes,
