@@ -163,6 +163,7 @@ impl Compensation {
     ///
     /// # Errors
     /// The block is not run: which element is at fault. Checking on, [`Compensation::pass`] goes past it.
+    #[inline]
     pub(crate) fn plan(
         &self,
         now: &Beside,
@@ -211,6 +212,7 @@ impl Compensation {
     ///
     /// # Errors
     /// The tool does not fit beside it.
+    #[inline]
     pub(crate) fn look_past(
         now: &Beside,
         end: &Join,
@@ -233,6 +235,7 @@ impl Compensation {
     ///
     /// # Errors
     /// The element that would be cut; the planned one stands for the one before it.
+    #[inline]
     pub(crate) fn look_about(
         &self,
         now: &Beside,
@@ -261,6 +264,7 @@ impl Compensation {
     }
 
     /// The planned element is run.
+    #[inline]
     pub(crate) fn take(&mut self, now: &Beside, plan: &Plan, end: &Join, next: &Next) {
         self.vector = end.last();
         self.axes = now.offset.axes;

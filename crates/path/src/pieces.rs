@@ -55,6 +55,9 @@ impl Pieces {
     /// Writes the first piece of a plan that has a length and keeps the others; false if none has.
     pub fn begin(&mut self, work: &Carried, operation: &Operation, position: &mut Point, shaped: &mut Shaped) -> bool {
         let count = work.count();
+        if let (1, Act::Line { to, feed }, false) = (count, &operation.act, work.edge.is_arc()) {
+            return work.whole(operation, (to, feed), position, shaped);
+        }
         for index in 0..count {
             if !work.piece(operation, index, position, shaped) {
                 continue;
@@ -103,6 +106,40 @@ impl Carried<'_> {
         self.ahead() + self.end.places().len()
     }
 
+    /// Writes the one piece of a cut beside a line, as most are; false if it has no length.
+    fn whole(
+        &self,
+        operation: &Operation,
+        (end, feed): (&Point, &Feed),
+        position: &mut Point,
+        shaped: &mut Shaped,
+    ) -> bool {
+        let axes = self.offset.axes;
+        let to = placed(end, axes, self.element.to, self.end.first());
+        let way = less(in_plane(&to, axes), in_plane(position, axes));
+        if way[0].abs() < NO_LENGTH
+            && way[1].abs() < NO_LENGTH
+            && beside_plane(position, axes) == beside_plane(&to, axes)
+        {
+            return false;
+        }
+        straight(&mut shaped.shape, position, &to, feed, true);
+        *position = to;
+        self.finish(operation, true, if self.plan.starts { Part::Start } else { Part::Along }, shaped);
+        true
+    }
+
+    /// Writes what a piece has beside its shape.
+    fn finish(&self, operation: &Operation, last: bool, part: Part, shaped: &mut Shaped) {
+        shaped.block = operation.block;
+        shaped.place = operation.place;
+        shaped.stop_point = operation.stop_point && last;
+        shaped.until_signal = false;
+        shaped.stroke_check = operation.stroke_check;
+        shaped.certain = self.certain;
+        self.mark(part, &mut shaped.beside);
+    }
+
     /// Writes a piece; false if it has no length.
     fn piece(&self, operation: &Operation, index: usize, position: &mut Point, shaped: &mut Shaped) -> bool {
         let ahead = self.ahead();
@@ -134,18 +171,12 @@ impl Carried<'_> {
             // An arc shrunk to its centre is a turn on the spot.
             (_, arc) => shaped.shape = shape(operation, arc.filter(|_| has_length), from, to, last),
         }
-        shaped.block = operation.block;
-        shaped.place = operation.place;
-        shaped.stop_point = operation.stop_point && last;
-        shaped.until_signal = false;
-        shaped.stroke_check = operation.stroke_check;
-        shaped.certain = self.certain;
         let part = match (along, self.plan.starts) {
             (true, true) => Part::Start,
             (true, false) => Part::Along,
             (false, _) => Part::Round,
         };
-        self.mark(part, &mut shaped.beside);
+        self.finish(operation, last, part, shaped);
         true
     }
 

@@ -87,6 +87,10 @@ pub(crate) fn join(first: &Edge, second: &Edge, s: f64, round: bool, join: &mut 
     join.count = 1;
     join.round = false;
     join.corner = side_of(&bend, s);
+    if bend.cos >= 0.0 && bend.curvature == [0.0; 2] && !(round && join.corner == Corner::Outside) {
+        join.places[0] = between_lines(first, second, &bend, s);
+        return true;
+    }
     match join.corner {
         Corner::None => {
             let middle = add(first.normal(1, 1.0), second.normal(0, 1.0));
@@ -99,6 +103,11 @@ pub(crate) fn join(first: &Edge, second: &Edge, s: f64, round: bool, join: &mut 
         Corner::Outside => *join = outside(first, second, &bend, s, round),
     }
     true
+}
+
+/// Where the paths beside two lines meet that turn by a right angle at most: 1 + cos is at least 1.
+fn between_lines(first: &Edge, second: &Edge, bend: &Bend, s: f64) -> Vector {
+    times(left(add(first.tangent[1], second.tangent[0])), s / (1.0 + bend.cos))
 }
 
 /// The angle by which an arc about an outside corner turns from one foot to the other: away from the tool's side.
@@ -121,9 +130,8 @@ pub(crate) fn outside(first: &Edge, second: &Edge, bend: &Bend, s: f64, round: b
     if first.is_arc() {
         put(feet[0]);
     }
-    // Up to a right angle: 1 + cos is at least 1.
     if bend.cos >= 0.0 {
-        put(times(left(add(first.tangent[1], second.tangent[0])), s / (1.0 + bend.cos)));
+        put(between_lines(first, second, bend, s));
     } else {
         put(add(feet[0], times(first.tangent[1], s.abs())));
         put(add(feet[1], times(second.tangent[0], -s.abs())));

@@ -32,6 +32,7 @@ pub(crate) enum Fault {
 }
 
 /// Judges whether there is room beside an arc on the tool's side, for a tool beside it by `s` at its start and end.
+#[inline]
 pub(crate) fn judge_room(edge: &Edge, s: [f64; 2], rules: &CompensationRules) -> Result<(), Fault> {
     if !edge.is_arc() {
         return Ok(());
@@ -47,6 +48,7 @@ pub(crate) fn judge_room(edge: &Edge, s: [f64; 2], rules: &CompensationRules) ->
 }
 
 /// Judges the path beside an element from one vector to another, for a tool beside it by `s` at its end.
+#[inline]
 pub(crate) fn judge(edge: &Edge, vectors: [Vector; 2], s: f64, rules: &CompensationRules) -> Result<(), Fault> {
     if !edge.is_arc() {
         let way = edge.length + dot(less(vectors[1], vectors[0]), edge.tangent[0]);
