@@ -79,8 +79,8 @@ pub(crate) struct Reading<'r> {
     pub now_known: AxisSet,
 }
 
-/// Gives a block its meaning: fills `command` and `next` (which holds a copy of `before`), returns where the program
-/// goes on.
+/// Gives a block its meaning: fills `command` and `next` (which holds a copy of `before`), and writes to `flow` where the
+/// program goes on if that is not with the next block.
 ///
 /// # Errors
 /// The control refuses the block, or a jump's target must be found first; `next` is then worth nothing.
@@ -91,8 +91,8 @@ pub(crate) fn read_meaning(
     next: &mut State,
     (block, word_values, called): (&Block, &[f64], CallName),
     arguments: &mut Arguments,
-    command: &mut Command,
-) -> Result<Flow, Refusal> {
+    (command, flow): (&mut Command, &mut Flow),
+) -> Result<(), Refusal> {
     let (word_count, cut) = cut_by_block_delete(block, setting.switches.block_delete);
     let words = Words::new(block, command.place, setting.record.as_ref());
     let control = setting.control.as_ref();
@@ -152,14 +152,15 @@ pub(crate) fn read_meaning(
     (wording.groups, wording.one_shot) = (reading.groups_written, reading.one_shot.map(|(code, _)| code));
     if let Some(modal) = reading.macro_call_kind() {
         // Every other word is an argument and means nothing else.
-        return reading.macro_call(modal);
+        *flow = reading.macro_call(modal)?;
+        return Ok(());
     }
     reading.take_values()?;
-    let flow = reading.take_codes()?;
+    reading.take_codes(flow)?;
     reading.act()?;
     reading.check_returned()?;
     reading.finish();
-    Ok(flow)
+    Ok(())
 }
 
 /// How many words a block-delete switch leaves, and from which character on the rest is ignored.

@@ -17,11 +17,11 @@ use crate::word::Refusal;
 const HIGHEST_SPEED_CODE: u32 = 99;
 
 impl Reading<'_> {
-    /// Takes the block's codes; returns where the program goes on.
-    pub fn take_codes(&mut self) -> Result<Flow, Refusal> {
+    /// Takes the block's codes; writes to `flow` where one of them sends the program.
+    pub fn take_codes(&mut self, flow: &mut Flow) -> Result<(), Refusal> {
         let by_surface = self.is_surface_speed();
         if !by_surface && !self.words.has_any(self.setting.code_letters) {
-            return Ok(Flow::Next);
+            return Ok(());
         }
         let control = self.control();
         let digits = self.setting.facts.codes.digits;
@@ -51,7 +51,10 @@ impl Reading<'_> {
                 self.send(CodeLine::B, b'B', index, digits[3], self.setting.facts.codes.b_after_motion)?;
             }
         }
-        if self.words.has(b'M') { self.take_m_codes(digits[0]) } else { Ok(Flow::Next) }
+        if self.words.has(b'M') {
+            *flow = self.take_m_codes(digits[0])?;
+        }
+        Ok(())
     }
 
     fn take_m_codes(&mut self, digits: u8) -> Result<Flow, Refusal> {

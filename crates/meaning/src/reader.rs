@@ -297,17 +297,20 @@ impl Reader {
             self.next.sequence = place.sequence;
         }
         let Reader { setting, calls, state, next, block, word_values, called, arguments, .. } = self;
-        match read_meaning(setting, calls, state, next, (block, word_values, *called), arguments, command) {
-            Ok(flow) => {
+        // Written where it stays: it is large, and nearly always says nothing.
+        let mut flow = Flow::Next;
+        let text = (&*block, word_values.as_slice(), *called);
+        match read_meaning(setting, calls, state, next, text, arguments, (command, &mut flow)) {
+            Ok(()) => {
                 self.begin(self.block.next, command);
-                match self.follow(flow, command) {
+                match self.follow(&flow, command) {
                     Ok(()) => {
                         let memory = &mut self.setting.memory;
                         self.next.memory_mark ^= command.write.map_or(0, |write| memory.write(write));
                         std::mem::swap(&mut self.state, &mut self.next);
                         command.after = *self.state;
                         self.count(command);
-                        if flow == Flow::Next {
+                        if matches!(flow, Flow::Next) {
                             self.call_after_move(command);
                         }
                         true

@@ -17,8 +17,10 @@ pub struct Trapezoid {
 impl Trapezoid {
     /// The fastest such move. A speed or acceleration of zero or less never arrives: its time is infinite.
     pub fn new(distance: f64, speed: f64, acceleration: f64) -> Trapezoid {
-        let peak = (distance * acceleration).max(0.0).sqrt();
-        Trapezoid { distance, top: speed.min(peak), acceleration }
+        let squared = distance * acceleration;
+        // Of a speed that is reached no root is needed.
+        let top = if speed * speed <= squared { speed } else { speed.min(squared.max(0.0).sqrt()) };
+        Trapezoid { distance, top, acceleration }
     }
 
     /// How long it takes, s.

@@ -115,16 +115,19 @@ impl Motion {
 
     /// The highest speed and acceleration along a straight way that no axis is asked too much by.
     fn along(&self, from: &Point, to: &Point, length: f64, rate: impl Fn(&crate::AxisLimits) -> f64) -> (f64, f64) {
-        let (mut speed, mut acceleration) = (f64::INFINITY, f64::INFINITY);
+        // What holds it most: a limit, and the axis' own way. Only theirs is worth a division.
+        let (mut speed, mut acceleration) = ((f64::INFINITY, 1.0), (f64::INFINITY, 1.0));
         for axis in 0..self.limits.count {
             let way = (to[axis] - from[axis]).abs();
             if way > 0.0 {
                 let limits = &self.limits.axes[axis];
-                speed = speed.min(rate(limits) * length / way);
-                acceleration = acceleration.min(limits.acceleration * length / way);
+                speed = tighter(speed, (rate(limits), way));
+                acceleration = tighter(acceleration, (limits.acceleration, way));
             }
         }
-        (speed, acceleration)
+        // Where nothing moves there is no bound.
+        let along = |(limit, way): (f64, f64)| if limit.is_finite() { limit * length / way } else { limit };
+        (along(speed), along(acceleration))
     }
 
     /// An arc. Its own acceleration towards the centre and that along the path share what the plane's axes can give:
@@ -161,6 +164,11 @@ impl Motion {
         let seconds = Trapezoid::new(plane_length, speed, acceleration).seconds();
         (seconds, length, commanded * steepness)
     }
+}
+
+/// The smaller one of two limits, each divided by its axis' way.
+fn tighter(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
+    if other.0 * one.1 < one.0 * other.1 { other } else { one }
 }
 
 fn distance(from: &Point, to: &Point, axes: usize) -> f64 {

@@ -23,8 +23,8 @@ pub(crate) enum After {
 
 impl Reader {
     /// Carries the program to where the block sends it.
-    pub(super) fn follow(&mut self, flow: Flow, command: &mut Command) -> Result<(), Alarm> {
-        if flow == Flow::Next {
+    pub(super) fn follow(&mut self, flow: &Flow, command: &mut Command) -> Result<(), Alarm> {
+        if matches!(flow, Flow::Next) {
             return Ok(());
         }
         self.jumps += 1;
@@ -33,14 +33,14 @@ impl Reader {
             let jump = self.block.words.iter().find(|word| word.letter == b'M');
             let span = jump.map_or(place.block, |word| word.extent.span(place.block.start));
             let alarm = Alarm::new(Condition::EndlessLoop, place, span);
-            let first = match &flow {
+            let first = match flow {
                 Flow::Jump(found) => found.cursor.line.min(place.line),
                 Flow::Again => self.calls.top().map_or(place.line, |frame| frame.head.line),
                 _ => place.line,
             };
             return Err(alarm.with([self.loop_limit as f64, first as f64, place.line as f64]));
         }
-        match flow {
+        match *flow {
             Flow::Next => {}
             Flow::Call { found, entry, repeats, large } => {
                 self.enter(found, entry, repeats);
