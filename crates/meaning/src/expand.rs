@@ -119,6 +119,8 @@ impl Expansion {
                 },
                 Part::Body => {
                     if self.next_move(command, out) {
+                        // There is no second piece of it.
+                        (self.part, self.index) = (Part::CodesAfter, 0);
                         break;
                     }
                     if let Some(act) = self.next_piece(command, setting, out) {
