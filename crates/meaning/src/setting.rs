@@ -10,6 +10,7 @@ use crate::facts::{MachineFacts, Memory, Switches};
 use crate::record::WordsRead;
 
 /// What holds while programs run.
+#[derive(Clone)]
 pub(crate) struct Setting {
     pub control: Arc<Control>,
     pub fitting: Fitting,

@@ -76,6 +76,18 @@ impl<L: Library> Session<L> {
     }
 
     fn execute_shape(&mut self) -> Result<(), Refusal> {
+        let shape = &self.motion.upstream.current().shape;
+        let (moves, measures) = (shape.is_move(), self.motion.upstream.current().until_signal);
+        match shape {
+            _ if moves => {
+                self.plan();
+                if measures {
+                    self.rest();
+                }
+            }
+            Shape::Code(_) | Shape::Dwell(_) | Shape::Await(_) => self.rest(),
+            _ => {}
+        }
         let Some(shaped) = self.real_shape() else {
             let events = &mut self.events;
             return self.machine.execute(&self.motion.current(), &mut |event| events.push_back(event));
@@ -123,9 +135,13 @@ impl<L: Library> Session<L> {
 
     /// Sends the codes that begin the block.
     fn send_codes(&mut self) {
+        if !self.codes.is_empty() {
+            self.rest();
+            self.codes_out = true;
+        }
         let events = &mut self.events;
         for shaped in self.codes.drain(..) {
-            let timed = Timed { shaped: &shaped, duration: Seconds(0.0), length: 0.0, feed: 0.0 };
+            let timed = Timed { shaped: &shaped, duration: Seconds(0.0), length: 0.0, feed: 0.0, pace: None };
             // A code is no move, so the machine has nothing to refuse.
             let _ = self.machine.execute(&timed, &mut |event| events.push_back(event));
         }
@@ -172,6 +188,7 @@ impl<L: Library> Session<L> {
     }
 
     fn stop(&mut self, place: Place, kind: StopKind) {
+        self.rest();
         self.stopped = true;
         self.tell(place, EventKind::Stop(StopCause::Program(kind)));
     }
@@ -181,6 +198,9 @@ impl<L: Library> Session<L> {
         self.settle_returned(&place);
         // #3003 bit 1: the program does not wait for FIN.
         let waits = self.executing_state(|state| state.block_control & 2 == 0);
+        if std::mem::take(&mut self.codes_out) && waits {
+            self.rest();
+        }
         let events = &mut self.events;
         self.machine.finish_block(&place, waits, &mut |event| events.push_back(event));
         match close {
