@@ -22,6 +22,8 @@ struct Strip {
 
 /// Two strips, of the cell's start and of its end, for every axis.
 const STRIPS: usize = 2 * AXES;
+/// A strip as level as this bounds the speed and not its change: an axis that turns round gives next to nothing to it.
+const LEVEL: f64 = 1e-7;
 /// Steps after which the search for the highest speed is over; each one leaves a side of the figure behind.
 const SEARCH_STEPS: usize = 2 * STRIPS;
 
@@ -119,7 +121,7 @@ impl Cell {
                 // Also where there is no acceleration along the way.
                 self.axes_allow = self.axes_allow.min(limit.acceleration / bend.abs());
                 let steep = slope + grown * bend;
-                if steep != 0.0 && self.count < STRIPS {
+                if steep.abs() > LEVEL && self.count < STRIPS {
                     let (half, lean) = (limit.acceleration / steep.abs(), bend / steep);
                     self.strips[self.count] = Strip { half, lean };
                     self.count += 1;

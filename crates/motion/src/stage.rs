@@ -127,6 +127,11 @@ impl Motion {
         matches!(as_move(&self.upstream.current().shape, &self.limits), Joins::Move(_))
     }
 
+    /// True if the next move that is driven together with others has been shown.
+    pub fn knows_next(&self) -> bool {
+        self.planner.as_ref().is_some_and(|planner| planner.knows())
+    }
+
     /// True while more of what follows the present move is to be shown.
     pub fn wants_more(&mut self) -> bool {
         self.planner.as_mut().is_some_and(|planner| planner.wants_more())

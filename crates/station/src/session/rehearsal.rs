@@ -120,6 +120,10 @@ impl<L: Library> Session<L> {
         while self.motion.wants_more() {
             let ahead = self.rehearse();
             self.motion.show(&ahead);
+            if ahead == Ahead::Rest && !self.motion.knows_next() {
+                // Nothing more comes of the rehearsal, and yet there is a move: it is driven by itself.
+                return self.forget_rehearsal();
+            }
         }
         self.motion.plan();
     }
