@@ -224,22 +224,26 @@ impl VirtualMachine {
     /// Runs a shape that is this part of the timed one.
     fn run(&mut self, shape: &Shape, timed: &Timed<'_>, part: f64, tell: &mut dyn FnMut(Event)) {
         let place = &timed.shaped.place;
-        let Timed { duration, length, feed, .. } = *timed;
+        let Timed { duration, length, feed, pace, .. } = *timed;
         let (duration, length) = (Seconds(duration.0 * part), length * part);
         self.time += duration;
         let (time, place) = (self.time, *place);
         match shape {
             Shape::Rapid { from, to, .. } => {
                 self.position = *to;
-                tell(Event { time, place, kind: EventKind::Rapid { from: *from, to: *to, duration, length } });
+                tell(Event { time, place, kind: EventKind::Rapid { from: *from, to: *to, duration, length, pace } });
             }
             Shape::Line { from, to, .. } => {
                 self.position = *to;
-                tell(Event { time, place, kind: EventKind::Feed { from: *from, to: *to, feed, duration, length } });
+                tell(Event {
+                    time,
+                    place,
+                    kind: EventKind::Feed { from: *from, to: *to, feed, duration, length, pace },
+                });
             }
             Shape::Arc { arc, .. } => {
                 self.position = arc.to;
-                tell(Event { time, place, kind: EventKind::Arc { arc: *arc, feed, duration, length } });
+                tell(Event { time, place, kind: EventKind::Arc { arc: *arc, feed, duration, length, pace } });
             }
             _ => {}
         }

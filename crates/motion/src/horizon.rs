@@ -264,6 +264,12 @@ impl Horizon {
         self.asked(mover).map_or(0.0, |asked| asked.feed.mm_per_min / 60.0 * asked.share)
     }
 
+    /// The speed that the next move to end asks for, mm/s along its way, overrides counted in.
+    pub fn next_asks(&self) -> f64 {
+        let next = self.cells.iter().find(|cell| cell.ends != Ends::Not);
+        next.map_or(0.0, |cell| self.feed_allows([cell.moves[0]; 2]).sqrt())
+    }
+
     /// The squared speed that the feeds of two moves allow, overrides counted in.
     fn feed_allows(&self, movers: [u64; 2]) -> f64 {
         let speed = movers.map(|mover| {

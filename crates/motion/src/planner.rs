@@ -22,15 +22,19 @@ pub enum Ahead {
     Rest,
 }
 
-/// How a planned move runs, mm/s along its way.
+/// How a move runs, mm/s along its way; nothing but zeros where moves are not planned together.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Pace {
+    /// The speed that it asks for, overrides counted in; of positioning the one at which every axis runs at its rate.
+    pub asked: f32,
+    /// What the axes' limits leave of that on its straight or round part.
+    pub allowed: f32,
     /// At its start.
-    pub start: f64,
+    pub start: f32,
     /// At its fastest.
-    pub top: f64,
+    pub top: f32,
     /// At its end.
-    pub end: f64,
+    pub end: f32,
 }
 
 /// A stretch of a move as it is driven: where, and how.
@@ -121,17 +125,22 @@ impl Planner {
     pub fn drive(&mut self) -> (f64, Pace) {
         let Planner { horizon, shown, stretches, keeps_stretches, .. } = self;
         stretches.clear();
+        let asked = horizon.next_asks() as f32;
+        let mut allowed = f32::INFINITY;
         let mut pace: Option<Pace> = None;
-        let seconds = horizon.drive_move(|way, leg| {
-            let (_, end) = leg.at(leg.seconds);
-            let pace = pace.get_or_insert(Pace { start: leg.speed, ..Pace::default() });
-            pace.top = pace.top.max(leg.speed).max(end);
+        let seconds = horizon.drive_move(|way, axes_allow, leg| {
+            let (speed, end) = (leg.speed as f32, leg.at(leg.seconds).1 as f32);
+            let pace = pace.get_or_insert(Pace { asked, start: speed, ..Pace::default() });
+            pace.top = pace.top.max(speed).max(end);
             pace.end = end;
+            if !matches!(way, Way::Blend { .. }) {
+                allowed = allowed.min(axes_allow.sqrt() as f32);
+            }
             if *keeps_stretches {
                 stretches.push(Stretch { way: *way, leg: *leg });
             }
         });
         shown.pop_front();
-        (seconds, pace.unwrap_or_default())
+        (seconds, Pace { allowed: allowed.min(asked), ..pace.unwrap_or_default() })
     }
 }

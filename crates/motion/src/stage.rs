@@ -22,8 +22,8 @@ pub struct Timed<'s> {
     pub length: f64,
     /// Feed of the tool centre along the path, mm/min, as commanded; zero for what is no cut.
     pub feed: f64,
-    /// How it runs, if it has been planned.
-    pub pace: Option<Pace>,
+    /// How it runs, where moves are planned together.
+    pub pace: Pace,
 }
 
 /// The stage that gives paths their time.
@@ -193,20 +193,28 @@ impl Motion {
         let timed = self.time(self.upstream.current());
         match self.planned {
             None => timed,
-            Some((seconds, pace)) => Timed { duration: Seconds(seconds), pace: Some(pace), ..timed },
+            Some((seconds, pace)) => Timed { duration: Seconds(seconds), pace, ..timed },
         }
     }
 
     /// A shape with its time.
     pub fn time<'s>(&self, shaped: &'s Shaped) -> Timed<'s> {
+        let mut pace = Pace::default();
         let (seconds, length, feed) = match &shaped.shape {
-            Shape::Rapid { from, to, .. } => self.rapid(from, to),
+            Shape::Rapid { from, to, .. } => {
+                let rapid = self.rapid(from, to);
+                if self.planner.is_some() {
+                    let asked = self.rapid_rate(from, to, rapid.1) as f32;
+                    pace = Pace { asked, allowed: asked, ..pace };
+                }
+                rapid
+            }
             Shape::Line { from, to, feed } => self.line(from, to, feed),
             Shape::Arc { arc, feed } => self.arc(arc, feed),
             Shape::Dwell(dwell) => (self.overrides.dwell(*dwell), 0.0, 0.0),
             _ => (0.0, 0.0, 0.0),
         };
-        Timed { shaped, duration: Seconds(seconds), length, feed, pace: None }
+        Timed { shaped, duration: Seconds(seconds), length, feed, pace }
     }
 
     fn rapid(&self, from: &Point, to: &Point) -> (f64, f64, f64) {
@@ -225,6 +233,13 @@ impl Motion {
             }
         }
         (longest, length, 0.0)
+    }
+
+    /// The straight speed of positioning in which every axis runs at its rate, or waits for the slowest.
+    fn rapid_rate(&self, from: &Point, to: &Point, length: f64) -> f64 {
+        let needed = |axis: usize| (to[axis] - from[axis]).abs() / self.overrides.rapid(self.limits.axes[axis].rapid);
+        let longest = (0..self.limits.count).map(needed).fold(0.0, f64::max);
+        if longest > 0.0 { length / longest } else { 0.0 }
     }
 
     fn line(&self, from: &Point, to: &Point, feed: &Feed) -> (f64, f64, f64) {

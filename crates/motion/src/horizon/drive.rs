@@ -75,8 +75,9 @@ pub(super) struct Drive {
 }
 
 impl Horizon {
-    /// Drives to the end of the next move: how long that takes, s. `leg` is shown every leg on its way.
-    pub fn drive_move(&mut self, mut leg: impl FnMut(&Way, &Leg)) -> f64 {
+    /// Drives to the end of the next move: how long that takes, s. `leg` is shown every leg on its way, with the
+    /// squared speed that the axes allow there.
+    pub fn drive_move(&mut self, mut leg: impl FnMut(&Way, f64, &Leg)) -> f64 {
         let mut seconds = 0.0;
         while self.begin_cell() {
             let Some(legs) = self.drive.legs else { break };
@@ -84,8 +85,8 @@ impl Horizon {
                 let next = &legs.legs[self.drive.leg];
                 let rest = next.seconds - self.drive.spent;
                 let (s, speed) = next.at(self.drive.spent);
-                if let Some(way) = self.cells.front().and_then(|cell| self.way(cell.way)) {
-                    leg(way, &Leg { s, speed, seconds: rest, ..*next });
+                if let Some((cell, way)) = self.cells.front().and_then(|cell| Some((cell, self.way(cell.way)?))) {
+                    leg(way, cell.axes_allow, &Leg { s, speed, seconds: rest, ..*next });
                 }
                 seconds += rest;
                 self.drive.leg += 1;

@@ -47,7 +47,7 @@ pub fn drive(limits: &Limits, moves: &[Move], mut show: impl FnMut(&Way, &Leg)) 
                 None => horizon.stop(),
             }
         }
-        times.push(horizon.drive_move(&mut show));
+        times.push(horizon.drive_move(|way, _, leg| show(way, leg)));
     }
     times
 }

@@ -4,7 +4,7 @@ use base::{Alarm, AxisSet, Condition, Place, Seconds};
 use dialect::{MMeaning, Occasion};
 use machine::{EventKind, Machine, Refusal, ResetCause, StopCause};
 use meaning::{Close, CodeLine, CodeOut, EndKind, State, StopKind};
-use motion::Timed;
+use motion::{Pace, Timed};
 use path::{Shape, Shaped};
 
 use super::{AfterAlarm, Session};
@@ -141,7 +141,8 @@ impl<L: Library> Session<L> {
         }
         let events = &mut self.events;
         for shaped in self.codes.drain(..) {
-            let timed = Timed { shaped: &shaped, duration: Seconds(0.0), length: 0.0, feed: 0.0, pace: None };
+            let timed =
+                Timed { shaped: &shaped, duration: Seconds(0.0), length: 0.0, feed: 0.0, pace: Pace::default() };
             // A code is no move, so the machine has nothing to refuse.
             let _ = self.machine.execute(&timed, &mut |event| events.push_back(event));
         }

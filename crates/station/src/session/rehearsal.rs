@@ -96,6 +96,17 @@ impl<L: Library> Session<L> {
         self.motion.plan_ahead();
     }
 
+    /// As [`Session::plan_ahead`]; how each cutting move is driven is kept for [`Session::stretches`].
+    pub fn plan_ahead_in_detail(&mut self) {
+        self.motion.plan_ahead();
+        self.motion.keep_stretches();
+    }
+
+    /// How the move handed out last is driven, stretch by stretch; empty for what is no cutting move.
+    pub fn stretches(&self) -> &[motion::Stretch] {
+        self.motion.stretches()
+    }
+
     /// Something has been touched: what follows is no longer what was rehearsed.
     pub fn forget_rehearsal(&mut self) {
         self.rehearsal = None;
