@@ -133,6 +133,21 @@ impl VirtualMachine {
         Some((first.0, end))
     }
 
+    /// True if a move that would leave the travel is refused as a whole, and not stopped at the border.
+    pub fn refuses_whole(&self) -> bool {
+        self.stroke_check != StrokeCheck::AtBorder
+    }
+
+    /// Time passes in which nothing happens.
+    pub fn stand_until(&mut self, time: Seconds) {
+        self.time = Seconds(self.time.0.max(time.0));
+    }
+
+    /// Waits for what a move must wait for.
+    pub fn wait_to_move(&mut self, place: &Place, tell: &mut dyn FnMut(Event)) {
+        self.wait_until(self.hold, place, tell);
+    }
+
     /// Drops what was asked of the machine.
     pub fn drop_codes(&mut self) {
         self.pending = [None; PENDING];

@@ -8,6 +8,7 @@
 
 mod drive;
 mod settle;
+mod stand;
 
 use std::collections::VecDeque;
 

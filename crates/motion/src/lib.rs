@@ -12,6 +12,7 @@ mod horizon;
 mod limits;
 mod overrides;
 mod planner;
+mod positioning;
 mod profile;
 mod stage;
 mod way;

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 use path::Shape;
 
-use crate::horizon::{Horizon, Leg, Move};
+use crate::horizon::{Horizon, Leg, Move, Setpoint};
 use crate::limits::Limits;
 use crate::overrides::Overrides;
 use crate::stage::{Joins, as_move};
@@ -119,6 +119,38 @@ impl Planner {
     pub fn forget(&mut self) {
         self.horizon.clear();
         self.shown.clear();
+    }
+
+    /// The next move shown is driven for a time: what is left of it, and whether the move has ended.
+    pub fn drive_for(&mut self, seconds: f64) -> (f64, bool) {
+        let driven = self.horizon.drive_for(seconds);
+        if driven.1 {
+            self.shown.pop_front();
+        }
+        driven
+    }
+
+    /// The axes shall stand as soon as they can, or go on.
+    pub fn hold(&mut self, held: bool) {
+        self.horizon.hold(held);
+    }
+
+    /// What follows is touched: the axes stand at the end of the first move at whose end they can.
+    pub fn stand_soon(&mut self) {
+        if !self.shown.is_empty() {
+            let left = self.horizon.stand_soon();
+            self.shown.truncate(left);
+        }
+    }
+
+    /// Where the axes are on what is being driven, and how fast.
+    pub fn setpoint(&self) -> Option<Setpoint> {
+        self.horizon.setpoint()
+    }
+
+    /// True if nothing moves.
+    pub fn is_standing(&self) -> bool {
+        self.horizon.is_standing()
     }
 
     /// Drives the next move shown: its time, s, and how it runs.

@@ -4,10 +4,11 @@ use base::{AXES, Point, Seconds};
 use meaning::{Answer, Feed, Pull, StaleBarrier};
 use path::{Arc, Path, Shape, Shaped};
 
-use crate::horizon::Move;
+use crate::horizon::{Move, Setpoint};
 use crate::limits::Limits;
 use crate::overrides::Overrides;
 use crate::planner::{Ahead, Pace, Planner, Stretch};
+use crate::positioning::Positioning;
 use crate::profile::Trapezoid;
 use crate::way::Way;
 
@@ -35,6 +36,8 @@ pub struct Motion {
     planner: Option<Box<Planner>>,
     /// The time of the present shape, s, and how it runs, once it has been planned.
     planned: Option<(f64, Pace)>,
+    /// The present shape, if it is being positioned under the eyes of the operator.
+    positioning: Option<Positioning>,
 }
 
 /// How a shape stands to the moves before and behind it.
@@ -78,7 +81,7 @@ const SHORTEST: f64 = 1e-7;
 impl Motion {
     /// The stage behind a path, under these limits.
     pub fn new(upstream: Path, limits: Limits) -> Motion {
-        Motion { upstream, limits, overrides: Overrides::default(), planner: None, planned: None }
+        Motion { upstream, limits, overrides: Overrides::default(), planner: None, planned: None, positioning: None }
     }
 
     /// Moves are planned together with those behind them, which [`Motion::show`] is shown; without it each one begins
@@ -93,7 +96,14 @@ impl Motion {
     #[must_use]
     pub fn unplanned(&self) -> Motion {
         let Motion { upstream, limits, overrides, .. } = self;
-        Motion { upstream: upstream.clone(), limits: *limits, overrides: *overrides, planner: None, planned: None }
+        Motion {
+            upstream: upstream.clone(),
+            limits: *limits,
+            overrides: *overrides,
+            planner: None,
+            planned: None,
+            positioning: None,
+        }
     }
 
     /// True if moves are planned together.
@@ -162,11 +172,92 @@ impl Motion {
         if let Some(planner) = &mut self.planner {
             planner.set_overrides(overrides);
         }
+        if let (Some(positioning), Shape::Rapid { from, to, .. }) =
+            (&mut self.positioning, &self.upstream.current().shape)
+        {
+            let length = distance(from, to, self.limits.count);
+            let along = along(&self.limits, from, to, length, |axis| overrides.rapid(axis.rapid)).0;
+            let straight = self.limits.straight_rapid;
+            let rate = |axis: usize| if straight { along } else { overrides.rapid(self.limits.axes[axis].rapid) };
+            positioning.set_rates(rate);
+        }
     }
 
     /// The speeds as the operator has set them.
     pub fn overrides(&self) -> &Overrides {
         &self.overrides
+    }
+
+    /// Begins to drive the present move step by step; it has been shown if it is driven together with others.
+    pub fn begin(&mut self) {
+        self.planned = None;
+        let Shape::Rapid { from, to, .. } = &self.upstream.current().shape else { return };
+        let (limits, overrides) = (&self.limits, &self.overrides);
+        self.positioning = Some(if limits.straight_rapid {
+            let length = distance(from, to, limits.count);
+            let (rate, acceleration) = along(limits, from, to, length, |axis| overrides.rapid(axis.rapid));
+            Positioning::straight(from, to, length, rate, acceleration)
+        } else {
+            let of = |axis: usize| (overrides.rapid(limits.axes[axis].rapid), limits.axes[axis].acceleration);
+            Positioning::by_axes(from, to, of, limits.count)
+        });
+    }
+
+    /// Drives the present move for a time, s: what is left of it, and whether the move has ended.
+    pub fn drive_for(&mut self, seconds: f64) -> (f64, bool) {
+        match (&mut self.positioning, &mut self.planner) {
+            (Some(positioning), _) => positioning.drive_for(seconds),
+            (None, Some(planner)) => planner.drive_for(seconds),
+            _ => (seconds, true),
+        }
+    }
+
+    /// The present move has been driven to its end in this time, s.
+    pub fn end(&mut self, seconds: f64) {
+        let timed = self.time(self.upstream.current());
+        let speed = (self.overrides.commanded(&feed_of(timed.shaped)) / 60.0) as f32;
+        let pace = if self.positioning.is_some() { timed.pace } else { Pace { asked: speed, ..Pace::default() } };
+        self.positioning = None;
+        self.planned = Some((seconds, pace));
+    }
+
+    /// What is left of the present move is dropped, and what was to follow; the axes stand.
+    pub fn drop_rest(&mut self) {
+        self.positioning = None;
+        self.forget_ahead();
+    }
+
+    /// The axes shall stand as soon as they can, or go on.
+    pub fn hold(&mut self, held: bool) {
+        match (&mut self.positioning, &mut self.planner) {
+            (Some(positioning), _) => positioning.hold(held),
+            (None, Some(planner)) => planner.hold(held),
+            _ => {}
+        }
+    }
+
+    /// What follows is touched: the axes stand at the end of the first move at whose end they can.
+    pub fn stand_soon(&mut self) {
+        if let Some(planner) = &mut self.planner {
+            planner.stand_soon();
+        }
+    }
+
+    /// True if nothing moves.
+    pub fn is_standing(&self) -> bool {
+        match (&self.positioning, &self.planner) {
+            (Some(positioning), _) => positioning.is_standing(),
+            (None, Some(planner)) => planner.is_standing(),
+            _ => true,
+        }
+    }
+
+    /// Where the axes are on the present move, and how fast, while it is driven step by step.
+    pub fn setpoint(&self) -> Option<Setpoint> {
+        match (&self.positioning, &self.planner) {
+            (Some(positioning), _) => Some(positioning.setpoint()),
+            (None, planner) => planner.as_ref().and_then(|planner| planner.setpoint()),
+        }
     }
 
     /// Answers the interpreter's open barrier.
@@ -220,7 +311,7 @@ impl Motion {
     fn rapid(&self, from: &Point, to: &Point) -> (f64, f64, f64) {
         let length = distance(from, to, self.limits.count);
         if self.limits.straight_rapid {
-            let (speed, acceleration) = self.along(from, to, length, |axis| self.overrides.rapid(axis.rapid));
+            let (speed, acceleration) = along(&self.limits, from, to, length, |axis| self.overrides.rapid(axis.rapid));
             return (Trapezoid::new(length, speed, acceleration).seconds(), length, 0.0);
         }
         let mut longest = 0.0f64;
@@ -246,32 +337,15 @@ impl Motion {
         let length = distance(from, to, self.limits.count);
         let at_rapid = self.overrides.at_rapid(feed);
         let rate = |axis: &crate::AxisLimits| if at_rapid { self.overrides.rapid(axis.rapid) } else { axis.max_feed };
-        let (most, acceleration) = self.along(from, to, length, rate);
+        let (most, acceleration) = along(&self.limits, from, to, length, rate);
         let (commanded, speed) = if at_rapid {
-            (self.along(from, to, length, |axis| axis.rapid).0 * 60.0, most)
+            (along(&self.limits, from, to, length, |axis| axis.rapid).0 * 60.0, most)
         } else {
             // The feed of the tool's tip, whose way is another than that of the axes.
             let share = if feed.way_mm > 0.0 { length / feed.way_mm } else { 1.0 };
             (self.overrides.commanded(feed), most.min(self.overrides.actual(feed) / 60.0 * share))
         };
         (Trapezoid::new(length, speed, acceleration).seconds(), length, commanded)
-    }
-
-    /// The highest speed and acceleration along a straight way that no axis is asked too much by.
-    fn along(&self, from: &Point, to: &Point, length: f64, rate: impl Fn(&crate::AxisLimits) -> f64) -> (f64, f64) {
-        // What holds it most: a limit, and the axis' own way. Only theirs is worth a division.
-        let (mut speed, mut acceleration) = ((f64::INFINITY, 1.0), (f64::INFINITY, 1.0));
-        for axis in 0..self.limits.count {
-            let way = (to[axis] - from[axis]).abs();
-            if way > 0.0 {
-                let limits = &self.limits.axes[axis];
-                speed = tighter(speed, (rate(limits), way));
-                acceleration = tighter(acceleration, (limits.acceleration, way));
-            }
-        }
-        // Where nothing moves there is no bound.
-        let along = |(limit, way): (f64, f64)| if limit.is_finite() { limit * length / way } else { limit };
-        (along(speed), along(acceleration))
     }
 
     /// An arc. Its own acceleration towards the centre and that along the path share what the plane's axes can give:
@@ -308,6 +382,37 @@ impl Motion {
         let seconds = Trapezoid::new(plane_length, speed, acceleration).seconds();
         (seconds, length, commanded * steepness)
     }
+}
+
+/// The feed of a cutting move.
+fn feed_of(shaped: &Shaped) -> Feed {
+    match &shaped.shape {
+        Shape::Line { feed, .. } | Shape::Arc { feed, .. } => *feed,
+        _ => Feed { mm_per_min: 0.0, exact_stop: false, tapping: false, per_revolution: false, way_mm: 0.0 },
+    }
+}
+
+/// The highest speed and acceleration along a straight way that no axis is asked too much by.
+fn along(
+    limits: &Limits,
+    from: &Point,
+    to: &Point,
+    length: f64,
+    rate: impl Fn(&crate::AxisLimits) -> f64,
+) -> (f64, f64) {
+    // What holds it most: a limit, and the axis' own way. Only theirs is worth a division.
+    let (mut speed, mut acceleration) = ((f64::INFINITY, 1.0), (f64::INFINITY, 1.0));
+    for axis in 0..limits.count {
+        let way = (to[axis] - from[axis]).abs();
+        if way > 0.0 {
+            let limits = &limits.axes[axis];
+            speed = tighter(speed, (rate(limits), way));
+            acceleration = tighter(acceleration, (limits.acceleration, way));
+        }
+    }
+    // Where nothing moves there is no bound.
+    let along = |(limit, way): (f64, f64)| if limit.is_finite() { limit * length / way } else { limit };
+    (along(speed), along(acceleration))
 }
 
 /// The smaller one of two limits, each divided by its axis' way.

@@ -1,6 +1,6 @@
 //! What the stage hands on: shapes, each with where it comes from.
 
-use base::{Alarm, Place, Point};
+use base::{AXES, Alarm, Place, Point};
 use meaning::{ArcMove, Close, CodeOut, Dwell, Element, Feed, Plane, RapidKind, SetValue, StopKind, Turn};
 
 use crate::arc::Arc;
@@ -57,6 +57,28 @@ impl Shape {
     /// True for a move of the axes.
     pub fn is_move(&self) -> bool {
         matches!(self, Shape::Rapid { .. } | Shape::Line { .. } | Shape::Arc { .. })
+    }
+
+    /// The part of a move that leads here, to a point on it.
+    pub fn up_to(&self, at: &Point) -> Shape {
+        match self {
+            Shape::Rapid { from, kind, .. } => Shape::Rapid { from: *from, to: *at, kind: *kind },
+            Shape::Line { from, feed, .. } => Shape::Line { from: *from, to: *at, feed: *feed },
+            Shape::Arc { arc, feed } => {
+                let [u, v] = arc.axes.map(|axis| usize::from(axis) % AXES);
+                let spoke = [at[u] - arc.center[0], at[v] - arc.center[1]];
+                let turned = libm::atan2(spoke[1], spoke[0]) - arc.start_angle;
+                let turn = std::f64::consts::TAU.copysign(arc.sweep);
+                // The angle on the way, between nothing and the whole sweep.
+                let mut sweep = turned % turn;
+                if sweep * turn < 0.0 {
+                    sweep += turn;
+                }
+                let radius = [arc.radius[0], libm::hypot(spoke[0], spoke[1])];
+                Shape::Arc { arc: Arc { to: *at, sweep, radius, ..*arc }, feed: *feed }
+            }
+            other => *other,
+        }
     }
 }
 
@@ -194,7 +216,6 @@ impl Default for Shaped {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use base::AXES;
 
     fn point(x: f64, y: f64) -> Point {
         let mut point = [0.0; AXES];

@@ -32,7 +32,7 @@ pub enum Show {
 }
 
 /// How long to run.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Until {
     /// Until automatic operation stops.
     Stop,
@@ -44,6 +44,8 @@ pub enum Until {
     Idle,
     /// Until the control begins to execute this source line.
     Line(u64),
+    /// For so many seconds.
+    Seconds(f64),
 }
 
 /// An override switch.
@@ -148,11 +150,12 @@ impl fmt::Display for Show {
 impl fmt::Display for Until {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Until::Stop => f.write_str("stop"),
-            Until::End => f.write_str("end"),
-            Until::Alarm => f.write_str("alarm"),
-            Until::Idle => f.write_str("idle"),
-            Until::Line(line) => write!(f, "line {line}"),
+            Until::Stop => f.write_str("until stop"),
+            Until::End => f.write_str("until end"),
+            Until::Alarm => f.write_str("until alarm"),
+            Until::Idle => f.write_str("until idle"),
+            Until::Line(line) => write!(f, "until line {line}"),
+            Until::Seconds(seconds) => write!(f, "for {seconds}"),
         }
     }
 }
@@ -187,7 +190,7 @@ impl fmt::Display for Action {
             Action::Variable(number, Some(value)) => write!(f, "variable {number} = {value}"),
             Action::Variable(number, None) => write!(f, "variable {number} = blank"),
             Action::Show(show) => write!(f, "show {show}"),
-            Action::Run(until) => write!(f, "run until {until}"),
+            Action::Run(until) => write!(f, "run {until}"),
             Action::NotBuilt(line) => f.write_str(line),
         }
     }

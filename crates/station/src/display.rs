@@ -165,11 +165,10 @@ fn modal<L: Library>(session: &Session<L>, groups: &GroupCodes) -> Value {
 
 fn position<L: Library>(session: &Session<L>) -> Value {
     Value::object([
-        ("machine", axes(session, session.position())),
+        ("machine", axes(session, &session.position())),
         ("work", axes(session, &session.work_display())),
         ("universal", axes(session, &session.universal_display())),
-        // Every move runs to its end between two actions, so there is nothing left to go.
-        ("distance_to_go", axes(session, &[0.0; AXES])),
+        ("distance_to_go", axes(session, &session.distance_to_go())),
     ])
 }
 
@@ -178,7 +177,7 @@ fn machine<L: Library>(session: &Session<L>) -> Value {
     let percent = |percent: u16| Value::Number(f64::from(percent));
     Value::object([
         ("name", Value::text(&session.configuration().machine.name)),
-        ("position", axes(session, session.position())),
+        ("position", axes(session, &session.position())),
         ("reference", reference(session)),
         ("emergency_stop", Value::Truth(session.emergency_stop())),
         (
@@ -221,10 +220,15 @@ fn feed<L: Library>(session: &Session<L>) -> Value {
     let mm_per_min = if per_revolution { commanded * f64::from(state.spindle) } else { commanded };
     let feed = meaning::Feed { mm_per_min, exact_stop: false, tapping: false, per_revolution, way_mm: 0.0 };
     let moves = session.is_running() && !session.is_stopped();
+    let actual = match session.setpoint() {
+        Some(setpoint) => setpoint.speed() * 60.0,
+        None if moves => session.overrides().actual(&feed),
+        None => 0.0,
+    };
     Value::object([
         ("f", Value::Number(commanded)),
         ("override", Value::Number(f64::from(session.percents().feed))),
-        ("actual", Value::Number(if moves { session.overrides().actual(&feed) } else { 0.0 })),
+        ("actual", Value::Number(actual)),
     ])
 }
 

@@ -4,9 +4,9 @@ mod table;
 mod typing;
 mod write;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use base::{Condition, SourceId};
+use base::{Condition, Seconds, SourceId};
 use dialect::{FileNames, Key, ModeRow, VariableMeaning};
 use machine::{Event, EventKind, ResetCause};
 use syntax::Cursor;
@@ -60,6 +60,8 @@ pub struct Operator<L> {
     programs: BTreeMap<String, Loaded>,
     /// The name under which a program was selected.
     selected: Option<String>,
+    /// Actions taken while the axes moved, which act when they stand at the end of a move.
+    waiting: VecDeque<Action>,
 }
 
 impl<L: Library> Operator<L> {
@@ -79,7 +81,8 @@ impl<L: Shelf> Operator<L> {
     /// An operator at a control that has been powered on.
     pub fn new(mut session: Session<L>) -> Operator<L> {
         session.set_repeats_main(true);
-        Operator { session, mode: 0, programs: BTreeMap::new(), selected: None }
+        session.run_live();
+        Operator { session, mode: 0, programs: BTreeMap::new(), selected: None, waiting: VecDeque::new() }
     }
 
     /// Performs an action. What happens is handed to `tell`.
@@ -115,6 +118,7 @@ impl<L: Shelf> Operator<L> {
         if !self.session.is_running() && table::begins(self.mode()) != Ok(Begins::Typed) {
             self.session.come_back();
         }
+        self.take_waiting(tell)?;
         self.drain_told(tell)
     }
 
@@ -124,6 +128,14 @@ impl<L: Shelf> Operator<L> {
         action: &Action,
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<Result<(), String>, LibraryError> {
+        if table::changes_what_follows(action) {
+            if self.session.is_moving() {
+                self.session.stand_soon();
+                self.waiting.push_back(action.clone());
+                return Ok(Ok(()));
+            }
+            self.session.forget_rehearsal();
+        }
         let session = &mut self.session;
         match action {
             Action::PowerOn => session.power_on(),
@@ -335,18 +347,43 @@ impl<L: Shelf> Operator<L> {
         Ok(())
     }
 
+    /// Actions that waited for the axes to stand act now, if they do.
+    fn take_waiting(&mut self, tell: &mut dyn FnMut(&mut Session<L>, Said)) -> Result<(), LibraryError> {
+        while !self.waiting.is_empty() && !self.session.is_moving() {
+            let Some(action) = self.waiting.pop_front() else { break };
+            if let Err(why) = self.act(&action, tell)? {
+                tell(&mut self.session, Said::Refused { action: action.to_string(), why });
+            }
+        }
+        Ok(())
+    }
+
     fn run(&mut self, until: &Until, tell: &mut dyn FnMut(&mut Session<L>, Said)) -> Result<(), LibraryError> {
+        let end = match until {
+            Until::Seconds(seconds) => Some(self.session.time() + Seconds(*seconds)),
+            _ => None,
+        };
         loop {
+            self.take_waiting(tell)?;
             if let Until::Line(line) = until
                 && self.session.line_begins().is_some_and(|place| place.line == *line)
             {
                 return Ok(());
             }
-            let event = match self.session.next() {
-                Step::Event(event) => event,
-                Step::Failed(error) => return Err(error),
+            let step = match end {
+                Some(end) => self.session.next_until(end),
+                None => Some(self.session.next()),
+            };
+            let event = match step {
+                Some(Step::Event(event)) => event,
+                Some(Step::Failed(error)) => return Err(error),
                 // It would wait for ever: nobody presses CYCLE START while this action lasts.
-                Step::Stopped | Step::Idle => return Ok(()),
+                Some(Step::Stopped | Step::Idle) | None => {
+                    if let Some(end) = end {
+                        self.session.let_time_pass(end);
+                    }
+                    return Ok(());
+                }
             };
             tell(&mut self.session, Said::Event(event));
             let done = match (until, event.kind) {

@@ -107,7 +107,7 @@ pub fn read_action(line: &str) -> Result<Action, String> {
         ("offset" | "work" | "parameter" | "variable", _) => write(verb, rest, line)?,
         ("show", [what, of @ ..]) => Action::Show(show(what, &of.join(" ")).ok_or_else(no_action)??),
         ("run", ["until", until @ ..]) => Action::Run(self::until(until).ok_or_else(no_action)??),
-        ("run", ["for", _]) => Action::NotBuilt(line.to_owned()),
+        ("run", ["for", seconds]) => Action::Run(Until::Seconds(finite(seconds)?.max(0.0))),
         (first, [..]) if NOT_BUILT.contains(&first) => Action::NotBuilt(line.to_owned()),
         _ => return Err(no_action()),
     })

@@ -2,6 +2,7 @@
 
 mod barriers;
 mod execution;
+mod live;
 mod locks;
 mod rehearsal;
 mod states;
@@ -58,6 +59,14 @@ pub struct Session<L> {
     /// What follows, where moves are planned together.
     rehearsal: Option<Box<Session<rehearsal::Lent>>>,
     met: rehearsal::Met,
+    /// Moves take their time.
+    live: bool,
+    under_way: Option<live::UnderWay>,
+    /// No more time passes than to this one.
+    deadline: Option<Seconds>,
+    /// FEED HOLD has been pressed in tapping.
+    hold_waits: bool,
+    tapping: bool,
     configuration: Configuration,
     /// The switches, as the operator has set them.
     switches: SessionSwitches,
@@ -131,6 +140,11 @@ impl<L: Library> Session<L> {
             library,
             rehearsal: None,
             met: None,
+            live: false,
+            under_way: None,
+            deadline: None,
+            hold_waits: false,
+            tapping: false,
             configuration,
             switches,
             in_force: SessionSwitches::default(),
@@ -215,13 +229,13 @@ impl<L: Library> Session<L> {
     }
 
     /// Where the axes are, mm and degrees in machine coordinates.
-    pub fn position(&self) -> &Point {
-        self.machine.position()
+    pub fn position(&self) -> Point {
+        self.setpoint().map_or(*self.machine.position(), |setpoint| setpoint.position)
     }
 
     /// Virtual time since power-on.
     pub fn time(&self) -> Seconds {
-        self.machine.time()
+        self.machine.time() + Seconds(self.elapsed())
     }
 
     /// The alarm that stands.
@@ -276,6 +290,7 @@ impl<L: Library> Session<L> {
         self.rewound = false;
         self.stopped = false;
         self.feed_held = false;
+        self.release();
     }
 
     /// CYCLE START in tape mode: as [`Session::start`], and a tape that stands in its middle is read on behind the next
@@ -348,7 +363,8 @@ impl<L: Library> Session<L> {
 
     /// True if it waits for the feed override to leave zero.
     pub fn waits_for_feed(&self) -> bool {
-        self.pulled && self.is_running() && !self.stopped && self.is_still(self.motion.upstream.current())
+        let waits = self.pulled || self.under_way.is_some();
+        waits && self.is_running() && !self.stopped && self.is_still(self.motion.upstream.current())
     }
 
     fn pass_switches(&mut self) {
@@ -364,7 +380,7 @@ impl<L: Library> Session<L> {
     }
 
     fn tell(&mut self, place: Place, kind: EventKind) {
-        let time = self.machine.time();
+        let time = self.time();
         self.events.push_back(Event { time, place, kind });
     }
 
@@ -382,12 +398,18 @@ impl<L: Library> Session<L> {
             if self.stopped {
                 return Step::Stopped;
             }
-            if self.ended || self.alarm.is_some() || self.goes_round() {
+            if self.ended || self.alarm.is_some() || self.goes_round() || self.is_time_up() {
                 return Step::Idle;
+            }
+            if self.under_way.is_some() {
+                if !self.go_on() {
+                    return Step::Idle;
+                }
+                continue;
             }
             if self.pull() {
                 self.pulled = self.stands_still() || self.alarm.is_some();
-                if !self.pulled {
+                if !self.pulled && !(self.live && self.takes_waiting_hold()) {
                     self.execute();
                 } else if self.events.is_empty() {
                     return Step::Idle;
@@ -399,7 +421,8 @@ impl<L: Library> Session<L> {
     /// The place of a block of which nothing has been executed yet, told once for each; `None` if something else
     /// comes first.
     pub fn block_begins(&mut self) -> Option<Place> {
-        if !self.events.is_empty() || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
+        let busy = !self.events.is_empty() || self.under_way.is_some();
+        if busy || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
             return None;
         }
         self.pulled = true;

@@ -45,7 +45,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
     };
     let (mut tool, mut alarmed, mut runs_along) = (0, false, false);
     run_through(&mut session, arguments.setting.repeat, |session, event| {
-        let position = strokes.at(session.position());
+        let position = strokes.at(&session.position());
         let drawing = drawing.get_or_insert_with(|| {
             let mut drawing = Drawing::new(title(name_of(session, event.place.program)));
             drawing.show(&layers);
@@ -58,7 +58,8 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
         if event.kind == EventKind::BlockDone && !std::mem::take(&mut runs_along) {
             // Beside an arc as large as the tool nothing moves.
             let block = session.interpreter().executing();
-            let ways = block.into_iter().flat_map(|block| strokes.ways_of(block, session.position()));
+            let position = session.position();
+            let ways = block.into_iter().flat_map(|block| strokes.ways_of(block, &position));
             ways.for_each(|way| drawing.programmed(&way));
         }
         if let EventKind::Alarm(alarm) = &event.kind {

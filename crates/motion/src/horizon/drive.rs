@@ -41,6 +41,13 @@ pub struct Setpoint {
     pub velocity: Point,
 }
 
+impl Setpoint {
+    /// The speed of all axes together, mm/s (degrees count as mm).
+    pub fn speed(&self) -> f64 {
+        crate::way::norm(&self.velocity, AXES)
+    }
+}
+
 /// The legs of one cell.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 struct Legs {
@@ -167,6 +174,11 @@ impl Horizon {
             self.settled = 0;
             self.look_again();
         }
+    }
+
+    /// The squared speed at the start of the first cell, which is not under way.
+    pub(super) fn speed_squared(&self) -> f64 {
+        self.drive.x
     }
 
     /// The place on the first cell's way, and the speed there.

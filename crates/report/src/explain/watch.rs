@@ -129,8 +129,8 @@ impl Watch {
             pass,
             before,
             after,
-            program: [programmed(session, &before, session.position()); 2],
-            at: [*session.position(); 2],
+            program: [programmed(session, &before, &session.position()); 2],
+            at: [session.position(); 2],
             offsets: [mm(memory.length(after.h)), mm(memory.radius(after.d))],
             words: interpreter.words_read().cloned().unwrap_or_default(),
             events: Vec::new(),
@@ -177,7 +177,7 @@ impl Watch {
         if matches!(event.kind, EventKind::Set(_)) && event.place.block != block.place.block {
             return;
         }
-        block.at[1] = *session.position();
+        block.at[1] = session.position();
         if let EventKind::Alarm(alarm) = event.kind {
             block.alarm = Some(alarm);
             block.after = block.before;

@@ -69,8 +69,8 @@ impl Watcher {
             options: BTreeSet::new(),
             option_names: BTreeSet::new(),
             systems: BTreeSet::new(),
-            low: *session.position(),
-            high: *session.position(),
+            low: session.position(),
+            high: session.position(),
             last_time: 0.0,
             configuration,
         }
@@ -291,7 +291,7 @@ impl Watcher {
             SetValue::WorkOrigin { axes, .. } | SetValue::Shift { axes, .. }
                 if now.one_shot == Some(Meaning::SetCoordinates) =>
             {
-                let position = *session.position();
+                let position = session.position();
                 let facts = self.configuration.machine.axes.iter().enumerate().take(AXES);
                 let named = facts.filter(|(index, _)| axes.has(*index));
                 let axes =

@@ -90,6 +90,16 @@ fn kind(action: &Action) -> Kind {
     }
 }
 
+/// True for an action that may change the moves that follow: taken while the axes move, it acts when they stand at the
+/// end of one.
+pub(super) fn changes_what_follows(action: &Action) -> bool {
+    match kind(action) {
+        Kind::Turn => !matches!(action, Action::Override(..)),
+        Kind::Offset | Kind::Parameter | Kind::Variable | Kind::Load | Kind::Select | Kind::Type => true,
+        _ => false,
+    }
+}
+
 /// Taken, or refused for this reason.
 type Answer = Option<&'static str>;
 

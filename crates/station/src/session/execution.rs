@@ -17,8 +17,7 @@ impl<L: Library> Session<L> {
             self.begin_block();
         }
         let shaped = self.motion.upstream.current();
-        let (place, stop_point) = (shaped.place, shaped.stop_point);
-        let stop = if let Shape::Await(stop) = shaped.shape { stop } else { None };
+        let place = shaped.place;
         match shaped.shape {
             Shape::Alarm(alarm) => return self.raise(alarm),
             Shape::Close(close) => {
@@ -35,6 +34,16 @@ impl<L: Library> Session<L> {
         if !self.start_codes() {
             return;
         }
+        if !self.prepare_shape() {
+            self.perform_shape();
+        }
+    }
+
+    /// What has been prepared is executed to its end.
+    pub(super) fn perform_shape(&mut self) {
+        let shaped = self.motion.upstream.current();
+        let (place, stop_point) = (shaped.place, shaped.stop_point);
+        let stop = if let Shape::Await(stop) = shaped.shape { stop } else { None };
         match self.execute_shape() {
             Ok(()) if stop_point && self.stops_at_blocks() => self.stop(place, StopKind::SingleBlock),
             Ok(()) => {}
@@ -75,7 +84,8 @@ impl<L: Library> Session<L> {
         true
     }
 
-    fn execute_shape(&mut self) -> Result<(), Refusal> {
+    /// A move is planned, and begins; true if it takes its time.
+    fn prepare_shape(&mut self) -> bool {
         let shape = &self.motion.upstream.current().shape;
         let (moves, measures) = (shape.is_move(), self.motion.upstream.current().until_signal);
         match shape {
@@ -88,6 +98,10 @@ impl<L: Library> Session<L> {
             Shape::Code(_) | Shape::Dwell(_) | Shape::Await(_) => self.rest(),
             _ => {}
         }
+        moves && self.live && self.begin_move()
+    }
+
+    fn execute_shape(&mut self) -> Result<(), Refusal> {
         let Some(shaped) = self.real_shape() else {
             let events = &mut self.events;
             return self.machine.execute(&self.motion.current(), &mut |event| events.push_back(event));

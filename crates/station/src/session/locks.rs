@@ -134,7 +134,7 @@ impl<L: Library> Session<L> {
     /// Where the control counts the axes to be, mm and degrees in machine coordinates: where they are, but for those
     /// that a switch has held.
     pub fn counted_position(&self) -> Point {
-        self.lock.counted(self.machine.position())
+        self.lock.counted(&self.position())
     }
 
     /// The ABSOLUTE display: coordinates of the work system in force.

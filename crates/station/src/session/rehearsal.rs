@@ -130,13 +130,15 @@ impl<L: Library> Session<L> {
         }
         while self.motion.wants_more() {
             let ahead = self.rehearse();
-            self.motion.show(&ahead);
-            if ahead == Ahead::Rest && !self.motion.knows_next() {
+            self.motion.show(&ahead.unwrap_or(Ahead::Rest));
+            if ahead.is_none() && !self.motion.knows_next() {
                 // Nothing more comes of the rehearsal, and yet there is a move: it is driven by itself.
                 return self.forget_rehearsal();
             }
         }
-        self.motion.plan();
+        if !self.live {
+            self.motion.plan();
+        }
     }
 
     /// In a rehearsal: the axes stand here.
@@ -153,30 +155,25 @@ impl<L: Library> Session<L> {
         }
     }
 
-    /// The next that follows.
-    fn rehearse(&mut self) -> Ahead {
+    /// The next that follows; `None` if the rehearsal has come to its end.
+    fn rehearse(&mut self) -> Option<Ahead> {
         if self.rehearsal.is_none() {
             self.rehearsal = Some(Box::new(self.begin_rehearsal()));
         }
-        let Some(rehearsal) = &mut self.rehearsal else { return Ahead::Rest };
+        let rehearsal = self.rehearsal.as_mut()?;
         loop {
             if let Some(ahead) = rehearsal.met.as_mut().and_then(VecDeque::pop_front) {
-                return ahead;
+                return Some(ahead);
             }
             match rehearsal.next() {
                 Step::Event(_) => {}
                 Step::Failed(_) => {
                     if !rehearsal.library.answer(&mut self.library) {
-                        return Ahead::Rest;
+                        return None;
                     }
                     rehearsal.ended = false;
                 }
-                Step::Stopped | Step::Idle => {
-                    if let Some(ahead) = rehearsal.met.as_mut().and_then(VecDeque::pop_front) {
-                        return ahead;
-                    }
-                    return Ahead::Rest;
-                }
+                Step::Stopped | Step::Idle => return rehearsal.met.as_mut().and_then(VecDeque::pop_front),
             }
         }
     }
@@ -185,6 +182,8 @@ impl<L: Library> Session<L> {
     pub(super) fn restart_rehearsal(&mut self) {
         match &mut self.rehearsal {
             Some(rehearsal) if rehearsal.stopped && self.stopped && !self.feed_held => rehearsal.start(),
+            // It goes on where it was held: what follows is the same.
+            _ if self.feed_held && self.under_way.is_some() => {}
             _ => self.forget_rehearsal(),
         }
     }
@@ -197,6 +196,11 @@ impl<L: Library> Session<L> {
             library: Lent::default(),
             rehearsal: None,
             met: Some(VecDeque::new()),
+            live: false,
+            under_way: None,
+            deadline: None,
+            hold_waits: false,
+            tapping: false,
             configuration: self.configuration.clone(),
             switches: self.switches,
             in_force: self.in_force,

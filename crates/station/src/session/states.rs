@@ -2,7 +2,7 @@
 
 use base::{AXES, Alarm, Condition, Place};
 use dialect::{Fate, Occasion, StateItem};
-use machine::{EventKind, Machine, ResetCause, StopCause};
+use machine::{EventKind, Machine, ResetCause};
 
 use super::Session;
 use crate::library::Library;
@@ -15,12 +15,14 @@ impl<L: Library> Session<L> {
 
     /// As [`Session::reset`], by another key.
     pub fn reset_by(&mut self, cause: ResetCause) {
+        self.break_off();
         self.change_states(Occasion::Reset, cause);
         self.forget_typed();
     }
 
     /// The emergency stop button is pressed: the drives are off, and the counters follow the axes.
     pub fn press_emergency_stop(&mut self) {
+        self.break_off();
         let place = if self.is_running() { self.place() } else { Place::default() };
         let alarm = Alarm::new(Condition::EmergencyStop, place, place.block);
         self.emergency = true;
@@ -43,6 +45,7 @@ impl<L: Library> Session<L> {
 
     /// The power goes off: what is under way is lost, what the memory keeps is kept.
     pub fn power_off(&mut self) {
+        self.break_off();
         self.interpreter_mut().store_codes();
         self.drop_work();
         self.come_back();
@@ -72,15 +75,6 @@ impl<L: Library> Session<L> {
     /// True while the control has power.
     pub fn is_powered(&self) -> bool {
         self.powered
-    }
-
-    /// FEED HOLD: no further move begins; CYCLE START goes on. Between two actions of an operator every move of the
-    /// virtual machine has run to its end, so it stands at once.
-    pub fn feed_hold(&mut self) {
-        let place = self.place();
-        self.stopped = true;
-        self.feed_held = true;
-        self.tell(place, EventKind::Stop(StopCause::FeedHold));
     }
 
     /// True from FEED HOLD to CYCLE START or RESET.

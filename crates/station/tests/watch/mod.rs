@@ -176,7 +176,7 @@ impl Watch {
         let machine = &session.configuration().machine;
         let travel = machine.travel();
         Watch {
-            position: *session.position(),
+            position: session.position(),
             time: session.time().0,
             limits: stays_inside.then_some((travel.low, travel.high)),
             axes: machine.axes.len(),

@@ -175,7 +175,7 @@ impl<'s, L: Library> Deeds<'s, L> {
                     axes.filter(|(_, axis)| command.wording.has(axis.letter)).for_each(|(axis, _)| placed.add(axis));
                 }
                 self.placed = self.placed.or(placed);
-                What::Stand { from: command.from.map(|counts| counts / 1e6), at: *self.session.position() }
+                What::Stand { from: command.from.map(|counts| counts / 1e6), at: self.session.position() }
             }
             _ => return None,
         })

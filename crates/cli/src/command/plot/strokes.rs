@@ -102,7 +102,7 @@ impl<'m> Strokes<'m> {
     /// Draws what the tool does not fit beside, and the contour that the control has read about it.
     pub fn refused(&self, drawing: &mut Drawing, session: &mut Session<Texts>, alarm: &Alarm) {
         let Some(beside) = session.beside().copied() else { return };
-        let (beside, stands) = (&beside, &session.position().clone());
+        let (beside, stands) = (&beside, &session.position());
         let mut index = 0;
         while let Ok(Some(command)) = session.interpreter_mut().look_ahead(index) {
             self.ways_of(command, stands).for_each(|way| drawing.refused_among(&way));

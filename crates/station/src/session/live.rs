@@ -1,0 +1,226 @@
+//! Time as it passes at the machine: a move is under way from its first setpoint to its last, and the operator can
+//! step in anywhere between.
+//!
+//! Dwells and the machine's answers to codes pass as a whole; nothing of the operator's changes them.
+
+use base::{AXES, Point, Seconds};
+use machine::{Machine, StopCause};
+use motion::Setpoint;
+use path::Shape;
+
+use super::{Session, Step};
+use crate::library::Library;
+
+/// A move of which something is left.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct UnderWay {
+    /// Time since it began, stops on the way counted in, s.
+    elapsed: f64,
+}
+
+/// The part of a servo period by which a time may miss a setpoint's and still be it.
+const ON_THE_DOT: f64 = 1e-6;
+/// A look whether the axes still move, s.
+const STRIDE_S: f64 = 1.0;
+
+impl<L: Library> Session<L> {
+    /// Moves take their time, and can be broken into: what an operator needs.
+    pub fn run_live(&mut self) {
+        self.plan_ahead();
+        self.live = true;
+    }
+
+    /// As [`Session::next`], but no farther than to this time; `None` when it has come.
+    pub fn next_until(&mut self, time: Seconds) -> Option<Step> {
+        self.deadline = Some(time);
+        let step = self.next();
+        let is_up = self.is_time_up() && step == Step::Idle;
+        self.deadline = None;
+        (!is_up).then_some(step)
+    }
+
+    /// True if the time that was given is over.
+    pub(super) fn is_time_up(&self) -> bool {
+        self.deadline.is_some_and(|deadline| self.time().0 >= deadline.0)
+    }
+
+    /// Where the axes are and how fast, while a move is under way.
+    pub fn setpoint(&self) -> Option<Setpoint> {
+        self.under_way.and_then(|_| self.motion.setpoint())
+    }
+
+    /// What is left of the move under way, mm and degrees.
+    pub fn distance_to_go(&self) -> Point {
+        let Some(setpoint) = self.setpoint() else { return [0.0; AXES] };
+        let to = match &self.motion.upstream.current().shape {
+            Shape::Rapid { to, .. } | Shape::Line { to, .. } => *to,
+            Shape::Arc { arc, .. } => arc.to,
+            _ => setpoint.position,
+        };
+        std::array::from_fn(|axis| to[axis] - setpoint.position[axis])
+    }
+
+    /// True while the axes move.
+    pub fn is_moving(&self) -> bool {
+        self.live && !self.motion.is_standing()
+    }
+
+    /// Something is to be touched that what follows depends on: the axes stand at the end of the first move at whose
+    /// end they can.
+    pub fn stand_soon(&mut self) {
+        self.motion.stand_soon();
+        self.rehearsal = None;
+    }
+
+    /// Time passes in which nothing happens.
+    pub fn let_time_pass(&mut self, until: Seconds) {
+        if self.under_way.is_none() {
+            self.machine.stand_until(until);
+        }
+    }
+
+    /// The time since the move under way began.
+    pub(super) fn elapsed(&self) -> f64 {
+        self.under_way.map_or(0.0, |under_way| under_way.elapsed)
+    }
+
+    /// A move that takes its time begins; false if it is executed as a whole.
+    pub(super) fn begin_move(&mut self) -> bool {
+        let shaped = self.motion.upstream.current();
+        let place = shaped.place;
+        let ends_by_itself = !shaped.until_signal && self.real_shape().is_none() && self.machine.refuses_whole();
+        let is_known = !self.motion.is_joined() || self.motion.knows_next();
+        if !ends_by_itself || !is_known || self.machine.check(&self.motion.current()).is_err() {
+            self.motion.plan();
+            return false;
+        }
+        let events = &mut self.events;
+        self.machine.wait_to_move(&place, &mut |event| events.push_back(event));
+        self.motion.begin();
+        self.under_way = Some(UnderWay { elapsed: 0.0 });
+        true
+    }
+
+    /// Lets the move under way go on to its end or the end of the time; false if nothing more comes of it.
+    pub(super) fn go_on(&mut self) -> bool {
+        loop {
+            let stride = self.machine.time().0 + self.elapsed() + STRIDE_S;
+            if self.drive(self.deadline.map_or(stride, |deadline| deadline.0.min(stride))) {
+                self.complete();
+                return true;
+            }
+            if self.is_time_up() || self.motion.is_standing() {
+                return false;
+            }
+        }
+    }
+
+    /// Drives the move under way until then, at most to its end; true if that is reached.
+    fn drive(&mut self, until: f64) -> bool {
+        let Some(under_way) = &mut self.under_way else { return true };
+        let seconds = (until - self.machine.time().0 - under_way.elapsed).max(0.0);
+        let (left, ended) = self.motion.drive_for(seconds);
+        under_way.elapsed += if ended { seconds - left } else { seconds };
+        ended
+    }
+
+    /// The move under way has ended.
+    fn complete(&mut self) {
+        let Some(UnderWay { elapsed }) = self.under_way.take() else { return };
+        self.motion.end(elapsed);
+        self.perform_shape();
+    }
+
+    /// The axes come to stand as fast as they can, from the next setpoint on; moves that end on the way are executed.
+    pub(super) fn brake(&mut self) {
+        let period = self.configuration.machine.limits().servo_period;
+        if self.under_way.is_some() {
+            let now = self.time().0;
+            let setpoint = (now / period - ON_THE_DOT).ceil() * period;
+            self.let_pass(setpoint);
+        }
+        while self.is_moving() && !self.stopped && self.alarm.is_none() {
+            self.motion.hold(true);
+            if self.under_way.is_some() {
+                let now = self.time().0;
+                self.let_pass(now + period);
+            } else if self.pull() {
+                self.pulled = false;
+                self.execute();
+            } else {
+                break;
+            }
+        }
+    }
+
+    /// Time passes until then, or the move ends.
+    fn let_pass(&mut self, until: f64) {
+        if self.drive(until) {
+            self.complete();
+        }
+    }
+
+    /// FEED HOLD: the axes come to stand, the rest of the move is kept. In tapping it waits for the end of the retract.
+    pub fn feed_hold(&mut self) {
+        if self.is_tapping() {
+            self.hold_waits = true;
+            return;
+        }
+        self.brake();
+        self.hold_waits = false;
+        if self.stopped || self.alarm.is_some() || self.ended {
+            return;
+        }
+        let place = self.place();
+        self.stopped = true;
+        self.feed_held = true;
+        self.tell(place, machine::EventKind::Stop(StopCause::FeedHold));
+    }
+
+    /// The move under way goes on.
+    pub(super) fn release(&mut self) {
+        self.motion.hold(false);
+    }
+
+    /// True while a tap is in the hole.
+    fn is_tapping(&self) -> bool {
+        self.live && self.tapping
+    }
+
+    /// A FEED HOLD that has waited for the end of tapping takes effect; true if it does.
+    pub(super) fn takes_waiting_hold(&mut self) -> bool {
+        let shaped = self.motion.upstream.current();
+        let taps = match &shaped.shape {
+            Shape::Line { feed, .. } | Shape::Arc { feed, .. } => Some(feed.tapping),
+            Shape::Rapid { .. } | Shape::Close(_) => Some(false),
+            _ => None,
+        };
+        self.tapping = taps.unwrap_or(self.tapping);
+        if self.tapping || !self.hold_waits {
+            return false;
+        }
+        self.feed_hold();
+        true
+    }
+
+    /// What is left of the move under way is dropped; the axes stand where they are, and it is told.
+    pub(super) fn break_off(&mut self) {
+        self.hold_waits = false;
+        self.tapping = false;
+        self.brake();
+        let Some(UnderWay { elapsed }) = self.under_way.take() else { return self.motion.drop_rest() };
+        let at = self.motion.setpoint().map(|setpoint| setpoint.position);
+        let mut shaped = *self.motion.upstream.current();
+        self.motion.end(elapsed);
+        if let Some(at) = at {
+            shaped.shape = shaped.shape.up_to(&at);
+            let timed = motion::Timed { shaped: &shaped, ..self.motion.current() };
+            let length = self.motion.time(&shaped).length;
+            let events = &mut self.events;
+            let timed = motion::Timed { length, ..timed };
+            // What could not be made as a whole was refused before it began.
+            let _ = self.machine.execute(&timed, &mut |event| events.push_back(event));
+        }
+        self.motion.drop_rest();
+    }
+}
