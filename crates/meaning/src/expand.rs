@@ -108,42 +108,8 @@ impl Expansion {
     pub fn next(&mut self, command: &Command, setting: &Setting, out: &mut Operation) -> bool {
         out.stop_point = false;
         out.until_signal = false;
-        loop {
-            match self.part {
-                Part::CodesBefore => match self.next_code(command, false, setting) {
-                    Some(code) => {
-                        out.act = Act::Code(code);
-                        break;
-                    }
-                    None => self.part = Part::Body,
-                },
-                Part::Body => {
-                    if self.next_move(command, out) {
-                        // There is no second piece of it.
-                        (self.part, self.index) = (Part::CodesAfter, 0);
-                        break;
-                    }
-                    if let Some(act) = self.next_piece(command, setting, out) {
-                        out.act = act;
-                        break;
-                    }
-                    self.part = Part::CodesAfter;
-                    self.index = 0;
-                }
-                Part::CodesAfter => match self.next_code(command, true, setting) {
-                    Some(code) => {
-                        out.act = Act::Code(code);
-                        break;
-                    }
-                    None => self.part = Part::Close,
-                },
-                Part::Close => {
-                    self.part = Part::Done;
-                    out.act = Act::Close(close(command.finish, setting.switches.optional_stop));
-                    break;
-                }
-                Part::Idle | Part::Done => return false,
-            }
+        if !self.next_act(command, setting, out) {
+            return false;
         }
         out.block = command.block;
         out.place = command.place;
@@ -151,6 +117,42 @@ impl Expansion {
         out.stroke_check = command.stroke_check;
         out.from_unknown = command.from_unknown;
         true
+    }
+
+    /// Writes what happens next; false when the block is done.
+    fn next_act(&mut self, command: &Command, setting: &Setting, out: &mut Operation) -> bool {
+        if self.part == Part::CodesBefore {
+            if let Some(code) = self.next_code(command, false, setting) {
+                out.act = Act::Code(code);
+                return true;
+            }
+            self.part = Part::Body;
+        }
+        if self.part == Part::Body {
+            if self.next_move(command, out) {
+                // There is no second piece of it.
+                (self.part, self.index) = (Part::CodesAfter, 0);
+                return true;
+            }
+            if let Some(act) = self.next_piece(command, setting, out) {
+                out.act = act;
+                return true;
+            }
+            (self.part, self.index) = (Part::CodesAfter, 0);
+        }
+        if self.part == Part::CodesAfter {
+            if let Some(code) = self.next_code(command, true, setting) {
+                out.act = Act::Code(code);
+                return true;
+            }
+            self.part = Part::Close;
+        }
+        if self.part == Part::Close {
+            self.part = Part::Done;
+            out.act = Act::Close(close(command.finish, setting.switches.optional_stop));
+            return true;
+        }
+        false
     }
 
     fn next_code(&mut self, command: &Command, after: bool, setting: &Setting) -> Option<CodeOut> {
@@ -181,6 +183,8 @@ impl Expansion {
         true
     }
 
+    /// On its own: most blocks are single moves, and an act handed on by value is large.
+    #[inline(never)]
     fn next_piece(&mut self, command: &Command, setting: &Setting, out: &mut Operation) -> Option<Act> {
         match &command.body {
             Body::Holes(holes) => return self.next_in_hole(holes, setting, &mut out.stop_point),
