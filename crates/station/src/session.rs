@@ -365,25 +365,46 @@ impl<L: Library> Session<L> {
             if let Some(event) = self.events.pop_front() {
                 return Step::Event(event);
             }
-            if let Some(error) = self.failed.take() {
-                self.ended = true;
-                return Step::Failed(error);
-            }
-            if self.stopped {
-                return Step::Stopped;
-            }
-            if self.ended || self.alarm.is_some() || self.goes_round() {
-                return Step::Idle;
-            }
-            if self.pull() {
-                self.pulled = self.stands_still() || self.alarm.is_some();
-                if !self.pulled {
-                    self.execute();
-                } else if self.events.is_empty() {
-                    return Step::Idle;
-                }
+            if let Some(step) = self.go_on() {
+                return step;
             }
         }
+    }
+
+    /// As [`Session::next`] for whoever takes many events: what happened next, all of it at once, changes places with
+    /// `told`, which is empty. `Some` if nothing happens, and why.
+    pub fn next_events(&mut self, told: &mut VecDeque<Event>) -> Option<Step> {
+        while self.events.is_empty() {
+            if let Some(step) = self.go_on() {
+                return Some(step);
+            }
+        }
+        std::mem::swap(&mut self.events, told);
+        None
+    }
+
+    /// Goes on by a shape or an answer; `Some` where nothing happens by itself.
+    #[inline]
+    fn go_on(&mut self) -> Option<Step> {
+        if let Some(error) = self.failed.take() {
+            self.ended = true;
+            return Some(Step::Failed(error));
+        }
+        if self.stopped {
+            return Some(Step::Stopped);
+        }
+        if self.ended || self.alarm.is_some() || self.goes_round() {
+            return Some(Step::Idle);
+        }
+        if self.pull() {
+            self.pulled = self.stands_still() || self.alarm.is_some();
+            if !self.pulled {
+                self.execute();
+            } else if self.events.is_empty() {
+                return Some(Step::Idle);
+            }
+        }
+        None
     }
 
     /// The place of a block of which nothing has been executed yet, told once for each; `None` if something else

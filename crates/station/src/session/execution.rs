@@ -77,8 +77,7 @@ impl<L: Library> Session<L> {
 
     fn execute_shape(&mut self) -> Result<(), Refusal> {
         let Some(shaped) = self.real_shape() else {
-            let events = &mut self.events;
-            return self.machine.execute(&self.motion.current(), &mut |event| events.push_back(event));
+            return self.machine.execute(&self.motion.current(), &mut self.events);
         };
         // The way back to the reference point is that of the axes, any other takes the time of the counted one.
         let timed = if self.returned().is_empty() { self.motion.current() } else { self.motion.time(&shaped) };
@@ -88,8 +87,7 @@ impl<L: Library> Session<L> {
         };
         let timed = Timed { shaped: &shaped, length, ..timed };
         let before = self.counted_position();
-        let events = &mut self.events;
-        let executed = self.machine.execute(&timed, &mut |event| events.push_back(event));
+        let executed = self.machine.execute(&timed, &mut self.events);
         if executed.is_ok() {
             self.count_move();
         }
@@ -123,11 +121,10 @@ impl<L: Library> Session<L> {
 
     /// Sends the codes that begin the block.
     fn send_codes(&mut self) {
-        let events = &mut self.events;
         for shaped in self.codes.drain(..) {
             let timed = Timed { shaped: &shaped, duration: Seconds(0.0), length: 0.0, feed: 0.0 };
             // A code is no move, so the machine has nothing to refuse.
-            let _ = self.machine.execute(&timed, &mut |event| events.push_back(event));
+            let _ = self.machine.execute(&timed, &mut self.events);
         }
     }
 
@@ -181,8 +178,7 @@ impl<L: Library> Session<L> {
         self.settle_returned(&place);
         // #3003 bit 1: the program does not wait for FIN.
         let waits = self.executing_state(|state| state.block_control & 2 == 0);
-        let events = &mut self.events;
-        self.machine.finish_block(&place, waits, &mut |event| events.push_back(event));
+        self.machine.finish_block(&place, waits, &mut self.events);
         match close {
             Close::Stop(kind) => self.stop(place, kind),
             Close::End(kind) => self.end(kind, place),
