@@ -4,10 +4,9 @@
 use base::{Alarm, Condition, Point};
 use meaning::{Act, Barrier, Command, Element, Interpreter, Offset};
 
-use crate::compensation::{
-    Beside, Compensation, Corner, Fault, Join, NONE, Next, NextKind, Plan, Rules, Vector, Which,
-};
+use crate::compensation::{Beside, Compensation, Corner, Fault, Join, Next, NextKind, Plan, Rules, Which};
 use crate::pieces::{Carried, Pieces};
+use crate::plane::{NONE, Vector};
 use crate::shape::{Part, RunBeside, Shaped};
 
 /// Blocks without a way in the plane that the look ahead passes over; more of them make the tool stop.

@@ -5,7 +5,8 @@ use base::Point;
 use meaning::{Act, Element, Feed, Offset, Operation, RapidKind};
 
 use crate::arc::Arc;
-use crate::compensation::{Corner, Edge, Join, Plan, Vector, less, sweep_round};
+use crate::compensation::{Corner, Edge, Join, Plan, sweep_round};
+use crate::plane::{Vector, in_plane, less};
 use crate::shape::{COUNTS, Part, RunBeside, Shape, Shaped};
 
 /// A piece shorter than this, mm, has no length: rounding made it.
@@ -267,11 +268,6 @@ fn placed(point: &Point, axes: [u8; 2], programmed: Vector, vector: Vector) -> P
         }
     }
     placed
-}
-
-/// A point's axes of the plane.
-fn in_plane(point: &Point, axes: [u8; 2]) -> Vector {
-    axes.map(|axis| point.get(usize::from(axis)).copied().unwrap_or(0.0))
 }
 
 /// A point with its axes of the plane left out.
