@@ -14,8 +14,6 @@ pub mod sheet;
 pub mod tape;
 pub mod trace;
 
-use std::collections::VecDeque;
-
 use base::{ProgramId, SourceId};
 use machine::Event;
 use station::{Configuration, Session, Step};
@@ -54,7 +52,7 @@ pub fn run_through(
     repeat: u64,
     mut see: impl FnMut(&mut Session<Texts>, &Event) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let mut events = VecDeque::with_capacity(32);
+    let mut events = Vec::with_capacity(32);
     for piece in 0..repeat {
         if piece == 0 {
             session.start()

@@ -144,6 +144,11 @@ fn counts(number: Decimal, increment: i64, unit: i64, range: [f64; 2]) -> Result
         number.integer()
     };
     let value = increments.and_then(|value| value.checked_mul(increment));
+    // A count or more within the bounds it matters nothing how they are rounded, and no division is needed.
+    let [low, high] = range.map(|bound| bound * unit as f64);
+    if let Some(value) = value.filter(|&value| value as f64 >= low + 1.0 && value as f64 <= high - 1.0) {
+        return Ok(value);
+    }
     let in_units = value.map_or(f64::INFINITY, |value| value as f64) / unit as f64;
     match value {
         Some(value) if in_units >= range[0] && in_units <= range[1] => Ok(value),

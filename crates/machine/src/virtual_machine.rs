@@ -3,8 +3,6 @@
 //! Codes that start with a block run beside its motion; the block is done when motion and machine are. Codes after
 //! the motion go out when it has ended, one block's together, and are waited for before anything else moves.
 
-use std::collections::VecDeque;
-
 use base::{Alarm, AxisSet, Condition, Place, Point, Seconds};
 use dialect::StrokeCheck;
 use meaning::{CodeLine, CodeOut, SetValue, StrokeArea};
@@ -31,10 +29,10 @@ pub trait Machine {
     ///
     /// # Errors
     /// The move would leave the travel: nothing of it has been executed (or the part up to the border, by policy).
-    fn execute(&mut self, timed: &Timed<'_>, told: &mut VecDeque<Event>) -> Result<(), Refusal>;
+    fn execute(&mut self, timed: &Timed<'_>, told: &mut Vec<Event>) -> Result<(), Refusal>;
 
     /// The block is done: waits for the machine's answers to its codes, unless the program does not want that.
-    fn finish_block(&mut self, place: &Place, waits: bool, told: &mut VecDeque<Event>);
+    fn finish_block(&mut self, place: &Place, waits: bool, told: &mut Vec<Event>);
 
     /// Where the axes are, mm and degrees in machine coordinates.
     fn position(&self) -> &Point;
@@ -145,11 +143,11 @@ impl VirtualMachine {
         self.hold = self.time;
     }
 
-    fn tell(&self, told: &mut VecDeque<Event>, place: &Place, kind: EventKind) {
-        told.push_back(Event { time: self.time, place: *place, kind });
+    fn tell(&self, told: &mut Vec<Event>, place: &Place, kind: EventKind) {
+        told.push(Event { time: self.time, place: *place, kind });
     }
 
-    fn send(&mut self, code: CodeOut, place: &Place, told: &mut VecDeque<Event>) {
+    fn send(&mut self, code: CodeOut, place: &Place, told: &mut Vec<Event>) {
         if code.after_motion {
             self.await_codes(place, told);
         }
@@ -165,7 +163,7 @@ impl VirtualMachine {
     }
 
     /// Waits until every code that is out has been answered.
-    fn await_codes(&mut self, place: &Place, told: &mut VecDeque<Event>) {
+    fn await_codes(&mut self, place: &Place, told: &mut Vec<Event>) {
         while self.awaits {
             let next = self.pending.iter_mut().filter(|slot| slot.is_some()).min_by(|a, b| {
                 let when = |slot: &Option<(CodeLine, Seconds)>| slot.map_or(f64::INFINITY, |(_, at)| at.0);
@@ -176,11 +174,11 @@ impl VirtualMachine {
                 return;
             };
             self.wait_until(at, place, told);
-            told.push_back(Event { time: at, place: *place, kind: EventKind::Finished(line) });
+            told.push(Event { time: at, place: *place, kind: EventKind::Finished(line) });
         }
     }
 
-    fn wait_until(&mut self, at: Seconds, place: &Place, told: &mut VecDeque<Event>) {
+    fn wait_until(&mut self, at: Seconds, place: &Place, told: &mut Vec<Event>) {
         if at > self.time {
             let waited = at - self.time;
             self.time = at;
@@ -232,7 +230,7 @@ impl VirtualMachine {
     }
 
     /// Runs a shape that is this part of the timed one.
-    fn run(&mut self, shape: &Shape, timed: &Timed<'_>, part: f64, told: &mut VecDeque<Event>) {
+    fn run(&mut self, shape: &Shape, timed: &Timed<'_>, part: f64, told: &mut Vec<Event>) {
         let place = &timed.shaped.place;
         let Timed { duration, length, feed, .. } = *timed;
         let (duration, length) = (Seconds(duration.0 * part), length * part);
@@ -241,15 +239,11 @@ impl VirtualMachine {
         match shape {
             Shape::Rapid { from, to, .. } => {
                 self.position = *to;
-                told.push_back(Event {
-                    time,
-                    place,
-                    kind: EventKind::Rapid { from: *from, to: *to, duration, length },
-                });
+                told.push(Event { time, place, kind: EventKind::Rapid { from: *from, to: *to, duration, length } });
             }
             Shape::Line { from, to, .. } => {
                 self.position = *to;
-                told.push_back(Event {
+                told.push(Event {
                     time,
                     place,
                     kind: EventKind::Feed { from: *from, to: *to, feed, duration, length },
@@ -257,7 +251,7 @@ impl VirtualMachine {
             }
             Shape::Arc { arc, .. } => {
                 self.position = arc.to;
-                told.push_back(Event { time, place, kind: EventKind::Arc { arc: *arc, feed, duration, length } });
+                told.push(Event { time, place, kind: EventKind::Arc { arc: *arc, feed, duration, length } });
             }
             _ => {}
         }
@@ -280,7 +274,7 @@ impl Machine for VirtualMachine {
         self.refusal(timed).map_or(Ok(()), |(refusal, _)| Err(refusal))
     }
 
-    fn execute(&mut self, timed: &Timed<'_>, told: &mut VecDeque<Event>) -> Result<(), Refusal> {
+    fn execute(&mut self, timed: &Timed<'_>, told: &mut Vec<Event>) -> Result<(), Refusal> {
         let place = &timed.shaped.place;
         match &timed.shaped.shape {
             Shape::Code(code) => self.send(*code, place, told),
@@ -338,7 +332,7 @@ impl Machine for VirtualMachine {
         Ok(())
     }
 
-    fn finish_block(&mut self, place: &Place, waits: bool, told: &mut VecDeque<Event>) {
+    fn finish_block(&mut self, place: &Place, waits: bool, told: &mut Vec<Event>) {
         if waits {
             self.await_codes(place, told);
         }

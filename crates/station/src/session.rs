@@ -6,8 +6,6 @@ mod locks;
 mod states;
 mod typed;
 
-use std::collections::VecDeque;
-
 use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
 use machine::{Event, EventKind, Machine, VirtualMachine};
 use meaning::Interpreter;
@@ -70,7 +68,9 @@ pub struct Session<L> {
     repeats_main: bool,
     /// Rounds of a program that goes round for ever, since the operator last let it run.
     pub(super) rounds: u32,
-    events: VecDeque<Event>,
+    events: Vec<Event>,
+    /// So many of them have been handed out.
+    handed_out: usize,
     /// Codes that begin a block, held until it is sure that the block is not refused.
     codes: Vec<Shaped>,
     bytes: Vec<u8>,
@@ -134,7 +134,8 @@ impl<L: Library> Session<L> {
             after_alarm: AfterAlarm::Stand,
             repeats_main: false,
             rounds: 0,
-            events: VecDeque::with_capacity(32),
+            events: Vec::with_capacity(32),
+            handed_out: 0,
             codes: Vec::with_capacity(16),
             bytes: Vec::new(),
             typed: Typed::default(),
@@ -328,7 +329,21 @@ impl<L: Library> Session<L> {
 
     /// What has happened and not been handed out yet, without letting time pass.
     pub fn next_told(&mut self) -> Option<Event> {
-        self.events.pop_front()
+        let event = self.events.get(self.handed_out).copied();
+        self.handed_out += 1;
+        if event.is_none() {
+            self.forget_told();
+        }
+        event
+    }
+
+    fn forget_told(&mut self) {
+        self.events.clear();
+        self.handed_out = 0;
+    }
+
+    fn has_told_all(&self) -> bool {
+        self.handed_out == self.events.len()
     }
 
     /// Parameters have been written: what is set from them is set anew.
@@ -355,14 +370,14 @@ impl<L: Library> Session<L> {
 
     fn tell(&mut self, place: Place, kind: EventKind) {
         let time = self.machine.time();
-        self.events.push_back(Event { time, place, kind });
+        self.events.push(Event { time, place, kind });
     }
 
     /// The next thing that happens.
     #[expect(clippy::should_implement_trait, reason = "it never ends for good: an operator can start again")]
     pub fn next(&mut self) -> Step {
         loop {
-            if let Some(event) = self.events.pop_front() {
+            if let Some(event) = self.next_told() {
                 return Step::Event(event);
             }
             if let Some(step) = self.go_on() {
@@ -373,12 +388,15 @@ impl<L: Library> Session<L> {
 
     /// As [`Session::next`] for whoever takes many events: what happened next, all of it at once, changes places with
     /// `told`, which is empty. `Some` if nothing happens, and why.
-    pub fn next_events(&mut self, told: &mut VecDeque<Event>) -> Option<Step> {
-        while self.events.is_empty() {
+    pub fn next_events(&mut self, told: &mut Vec<Event>) -> Option<Step> {
+        while self.has_told_all() {
+            self.forget_told();
             if let Some(step) = self.go_on() {
                 return Some(step);
             }
         }
+        self.events.drain(..self.handed_out);
+        self.handed_out = 0;
         std::mem::swap(&mut self.events, told);
         None
     }
@@ -400,7 +418,7 @@ impl<L: Library> Session<L> {
             self.pulled = self.stands_still() || self.alarm.is_some();
             if !self.pulled {
                 self.execute();
-            } else if self.events.is_empty() {
+            } else if self.has_told_all() {
                 return Some(Step::Idle);
             }
         }
@@ -410,7 +428,7 @@ impl<L: Library> Session<L> {
     /// The place of a block of which nothing has been executed yet, told once for each; `None` if something else
     /// comes first.
     pub fn block_begins(&mut self) -> Option<Place> {
-        if !self.events.is_empty() || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
+        if !self.has_told_all() || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
             return None;
         }
         self.pulled = true;
