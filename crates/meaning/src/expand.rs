@@ -108,6 +108,7 @@ impl Expansion {
     pub fn next(&mut self, command: &Command, setting: &Setting, out: &mut Operation) -> bool {
         out.stop_point = false;
         out.until_signal = false;
+        out.closes = false;
         if !self.next_act(command, setting, out) {
             return false;
         }
@@ -130,8 +131,9 @@ impl Expansion {
         }
         if self.part == Part::Body {
             if self.next_move(command, out) {
-                // There is no second piece of it.
-                (self.part, self.index) = (Part::CodesAfter, 0);
+                // There is no second piece of it, and mostly nothing behind it.
+                out.closes = command.code_count == 0 && command.finish == Finish::Next;
+                (self.part, self.index) = (if out.closes { Part::Done } else { Part::CodesAfter }, 0);
                 return true;
             }
             if let Some(act) = self.next_piece(command, setting, out) {

@@ -135,6 +135,7 @@ impl Carried<'_> {
         shaped.block = operation.block;
         shaped.place = operation.place;
         shaped.stop_point = operation.stop_point && last;
+        shaped.closes = operation.closes && last;
         shaped.until_signal = false;
         shaped.stroke_check = operation.stroke_check;
         shaped.certain = self.certain;

@@ -17,7 +17,7 @@ impl<L: Library> Session<L> {
             self.begin_block();
         }
         let shaped = self.motion.upstream.current();
-        let (place, stop_point) = (shaped.place, shaped.stop_point);
+        let (place, stop_point, closes) = (shaped.place, shaped.stop_point, shaped.closes);
         let stop = if let Shape::Await(stop) = shaped.shape { stop } else { None };
         match shaped.shape {
             Shape::Alarm(alarm) => return self.raise(alarm),
@@ -32,16 +32,18 @@ impl<L: Library> Session<L> {
         if self.after_alarm == AfterAlarm::GoOn {
             self.pass_unknown();
         }
-        if !self.start_codes() {
-            return;
+        if self.start_codes() {
+            match self.execute_shape() {
+                Ok(()) if stop_point && self.stops_at_blocks() => self.stop(place, StopKind::SingleBlock),
+                Ok(()) => {}
+                Err(refusal) => self.raise(self.at_the_word(refusal.alarm)),
+            }
+            if let Some(kind) = stop {
+                self.stop(place, kind);
+            }
         }
-        match self.execute_shape() {
-            Ok(()) if stop_point && self.stops_at_blocks() => self.stop(place, StopKind::SingleBlock),
-            Ok(()) => {}
-            Err(refusal) => self.raise(self.at_the_word(refusal.alarm)),
-        }
-        if let Some(kind) = stop {
-            self.stop(place, kind);
+        if closes && self.alarm.is_none() {
+            self.close(Close::Next, place);
         }
     }
 
