@@ -385,15 +385,17 @@ impl Reading<'_> {
         use Meaning::{Dwell, LocalCoordinates, SetCoordinates, WriteData};
         let leads_nowhere = matches!(self.one_shot, Some((Dwell | WriteData | SetCoordinates | LocalCoordinates, _)));
         let places = !self.words_taken && !leads_nowhere;
-        let written = self.setting.axes_of(self.words.letters());
-        for axis in written.iter() {
-            let word = self.setting.facts.axes.get(axis).and_then(|facts| self.words.word(facts.letter));
-            self.command.axis_words[axis] = word.map_or_else(Default::default, |word| word.extent);
+        let words = self.words.block.words.get(..self.word_count).unwrap_or_default();
+        let mut written = AxisSet::NONE;
+        for word in words.iter().take(MOST_WORDS) {
+            if let Some(axis) = self.setting.axis_of(word.letter) {
+                self.command.axis_words[axis] = word.extent;
+                written.add(axis);
+            }
         }
         self.command.written = written;
         let absolute = if self.absolute && places { written } else { AxisSet::NONE };
         self.command.absolute = absolute;
-        let words = self.words.block.words.get(..self.word_count).unwrap_or_default();
         self.command.wording.take(words, self.word_values);
         if !self.next.unknown.is_nothing() {
             self.learn(absolute);

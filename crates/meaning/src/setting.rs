@@ -61,14 +61,21 @@ pub(crate) fn usual_letters(control: &Control, axis_letters: u32) -> u32 {
 }
 
 impl Setting {
+    /// The axis of a letter.
+    #[inline]
+    pub fn axis_of(&self, letter: u8) -> Option<usize> {
+        self.axis_of_letter.get(usize::from(letter.wrapping_sub(b'A'))).copied().flatten().map(usize::from)
+    }
+
     /// The axes of these letters.
     #[inline]
     pub fn axes_of(&self, letters: u32) -> AxisSet {
         let mut axes = AxisSet::NONE;
         let mut rest = letters & self.axis_letters;
         while rest != 0 {
-            let axis = self.axis_of_letter.get(rest.trailing_zeros() as usize).copied().flatten();
-            axes = axes.or(axis.map_or(AxisSet::NONE, |axis| AxisSet::only(usize::from(axis))));
+            if let Some(axis) = self.axis_of(b'A' + rest.trailing_zeros() as u8) {
+                axes.add(axis);
+            }
             rest &= rest - 1;
         }
         axes
