@@ -129,7 +129,7 @@ impl Control {
 }
 
 /// A number in counts: with a point `unit` each, rounded to the increment; without one `increment` each.
-#[inline]
+#[inline(always)]
 fn counts(number: Decimal, increment: i64, unit: i64, range: [f64; 2]) -> Result<i64, Refused> {
     let increments = if number.point {
         // The usual case first: thousandths of a mm or degree. A division would cost more than the rest.

@@ -1,7 +1,7 @@
 //! A plan of compensation as moves, one at a time: round the corner at the start, beside the element, round the corner
 //! at its end.
 
-use base::Point;
+use base::{AXES, Point};
 use meaning::{Act, Element, Feed, Offset, Operation, RapidKind};
 
 use crate::arc::Arc;
@@ -264,9 +264,7 @@ fn shape(operation: &Operation, arc: Option<Arc>, from: Point, to: Point, last: 
 fn placed(point: &Point, axes: [u8; 2], programmed: Vector, vector: Vector) -> Point {
     let mut placed = *point;
     for (index, axis) in axes.iter().enumerate() {
-        if let Some(place) = placed.get_mut(usize::from(*axis)) {
-            *place = programmed[index] / COUNTS + vector[index];
-        }
+        placed[usize::from(*axis) % AXES] = programmed[index] / COUNTS + vector[index];
     }
     placed
 }

@@ -1,7 +1,7 @@
 //! Two numbers of a plane, as a place, a direction or a way; mm. Where they count from a corner near by, digits are not
 //! spent on where in the shop it lies.
 
-use base::Point;
+use base::{AXES, Point};
 
 /// A place, way or direction in the plane.
 pub type Vector = [f64; 2];
@@ -75,5 +75,5 @@ pub fn most(a: f64, b: f64) -> f64 {
 /// A point's axes of the plane.
 #[inline]
 pub fn in_plane(point: &Point, axes: [u8; 2]) -> Vector {
-    axes.map(|axis| point.get(usize::from(axis)).copied().unwrap_or(0.0))
+    axes.map(|axis| point[usize::from(axis) % AXES])
 }

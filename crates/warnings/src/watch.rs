@@ -257,7 +257,7 @@ impl Watch {
             || command.finish != Finish::Next
             || command.levels().is_some()
             || self.inherited.is_open()
-            || before.after.displacement != [0.0; AXES];
+            || before.after.displacement.iter().fold(false, |any, &way| any | (way != 0.0));
         if !is_rare {
             return;
         }
