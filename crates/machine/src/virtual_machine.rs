@@ -196,6 +196,9 @@ impl VirtualMachine {
         let alarm = |condition, values, axis: usize| Refusal {
             alarm: Alarm::new(condition, *place, place.block).with(values).on_axis(axis),
         };
+        if self.area.is_none() && self.travel.exit(shape).is_none() {
+            return None;
+        }
         let out = self.travel.meets(shape, rates).filter(|(exit, _)| !self.unknown.has(exit.axis));
         let out = out.map(|(Exit { axis, reaches }, met)| {
             let values = [reaches, self.travel.low[axis], self.travel.high[axis]];

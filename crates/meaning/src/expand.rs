@@ -65,10 +65,13 @@ impl Expansion {
     pub fn begin(&mut self, command: &Command) {
         self.part = Part::CodesBefore;
         (self.index, self.phase, self.hole) = (0, 0, 0);
-        self.cursor = Cursor::default();
-        (self.position, self.target) = (command.from, command.from);
-        (self.hits, self.start) = ([0.0; 2], 0.0);
-        self.missed = false;
+        // A single move asks for none of the rest.
+        if !matches!(command.body, Body::Line { .. } | Body::Rapid { .. }) {
+            self.cursor = Cursor::default();
+            (self.position, self.target) = (command.from, command.from);
+            (self.hits, self.start) = ([0.0; 2], 0.0);
+            self.missed = false;
+        }
     }
 
     /// The command is done with.

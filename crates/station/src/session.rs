@@ -57,6 +57,8 @@ pub struct Session<L> {
     switches: SessionSwitches,
     /// Those that act from block to block, as they were when the block in execution began.
     in_force: SessionSwitches,
+    /// A switch has been turned since.
+    switched: bool,
     percents: Percents,
     /// The program fixes the feed override at 100 %.
     fixes_override: bool,
@@ -126,6 +128,7 @@ impl<L: Library> Session<L> {
             configuration,
             switches,
             in_force: SessionSwitches::default(),
+            switched: switches != SessionSwitches::default(),
             percents: Percents::default(),
             fixes_override: false,
             lock: AxisLock::default(),
@@ -293,6 +296,7 @@ impl<L: Library> Session<L> {
     /// Why not, in words.
     pub fn set_switch(&mut self, name: &str, number: Option<u8>, on: bool) -> Result<(), String> {
         self.switches.set(name, number, on)?;
+        self.switched = true;
         self.pass_switches();
         Ok(())
     }

@@ -52,7 +52,8 @@ impl<L: Library> Session<L> {
         self.between_blocks = false;
         // #3004 bit 1: the program fixes the feed override at 100 %.
         let fixes = self.interpreter().executing_state().feed_control & 2 != 0;
-        if self.in_force != self.switches || self.fixes_override != fixes {
+        if self.switched || self.fixes_override != fixes {
+            self.switched = false;
             self.in_force = self.switches;
             self.fixes_override = fixes;
             self.pass_locks();
