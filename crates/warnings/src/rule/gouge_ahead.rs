@@ -12,6 +12,7 @@
 //! for what lies before the crossing and behind it, which is no contour; for the first element's beginning and the last
 //! one's end beside the moves to and from them. Of cuts one beside the other the deepest is said.
 
+mod chain;
 mod window;
 
 use base::Place;

@@ -1,14 +1,12 @@
 //! The window of moves and elements that are held against each other.
 //!
-//! What need not be compared: as long as the directions of neighbouring elements, from one to another, lie within half a
-//! turn, the centre beside the one is nowhere nearer to the other than the radius. (Take the element among them that
-//! points farthest right: all elements before it lie right of its line, all centres behind it left of its centre's line;
-//! and of the one that points farthest left the other way round.) So only what lies before the last half turn is looked
-//! at, and of that only what lies in boxes that come near enough.
+//! Only what lies before the last half turn ([`Chain`]) is looked at, and of that only what lies in boxes that come near
+//! enough.
 
-use path::plane::{Vector, distance, least, less, most};
+use path::plane::{Vector, distance};
 use path::{Curve, Extent, Part};
 
+use super::chain::Chain;
 use super::{Hit, LEAST_MM};
 use crate::way::{Turns, Way};
 
@@ -16,10 +14,6 @@ use crate::way::{Turns, Way};
 const BOXED: u64 = 8;
 /// More than rounding makes of a distance, mm.
 const ROUNDING_MM: f64 = 1e-6;
-/// Half a turn in the measure of [`direction`], and a bit for rounding.
-const HALF_TURN: f64 = 2.0 + 1e-9;
-/// A turn back by less than this beside half a turn can go either way round.
-const EITHER_WAY: f64 = 2.0 - 1e-6;
 
 /// The latest moves of a stretch, in rings: by their number, as many as a power of two.
 pub(super) struct Window {
@@ -29,8 +23,8 @@ pub(super) struct Window {
     turns: Vec<Turns>,
     /// Elements up to each move.
     counts: Vec<u64>,
-    /// The directions in each move, lowest and highest; in those that are summed up, from each to the last such one.
-    angles: Vec<[f64; 2]>,
+    /// From where on nothing need be compared.
+    chain: Chain,
     boxes: Vec<Extent>,
     /// Moves in this stretch, and elements.
     next: u64,
@@ -41,13 +35,6 @@ pub(super) struct Window {
     first_cutter: u64,
     /// The same for the move that comes next.
     next_cutter: u64,
-    /// From here on all directions lie within half a turn; before `summed` they are summed up, behind it they lie between
-    /// these.
-    chain: u64,
-    summed: u64,
-    reach: [f64; 2],
-    /// The direction in which the last move ends: turns counted, and not.
-    last: Option<[f64; 2]>,
     radius: f64,
     /// Where the last element ends.
     corner: Option<Vector>,
@@ -65,7 +52,7 @@ impl Window {
             entries: Vec::new(),
             turns: Vec::new(),
             counts: Vec::new(),
-            angles: Vec::new(),
+            chain: Chain::default(),
             boxes: Vec::new(),
             next: 0,
             count: 0,
@@ -73,10 +60,6 @@ impl Window {
             first_element: 0,
             first_cutter: 0,
             next_cutter: 0,
-            chain: 0,
-            summed: 0,
-            reach: NO_REACH,
-            last: None,
             radius: 0.0,
             corner: None,
             compared: 0,
@@ -110,7 +93,8 @@ impl Window {
         std::mem::swap(&mut empty.entries, &mut self.entries);
         std::mem::swap(&mut empty.turns, &mut self.turns);
         std::mem::swap(&mut empty.counts, &mut self.counts);
-        std::mem::swap(&mut empty.angles, &mut self.angles);
+        std::mem::swap(&mut empty.chain, &mut self.chain);
+        empty.chain.break_off(0);
         std::mem::swap(&mut empty.boxes, &mut self.boxes);
         *self = empty;
     }
@@ -148,7 +132,7 @@ impl Window {
             self.corner = Some(way.element.ends[1]);
             extent = extent.with(&way.element.extent(&turns[1]));
         }
-        self.follow(number);
+        self.chain.follow(number, way, turns);
         self.counts[index] = self.count;
         self.next = number + 1;
         while self.counts[self.index(self.tail)] + self.depth < self.count {
@@ -158,8 +142,13 @@ impl Window {
         self.tail = self.tail.max(((number & !(BOXED - 1)) + BOXED).saturating_sub(self.room()));
         let slot = &mut self.boxes[index / BOXED as usize];
         *slot = if number.is_multiple_of(BOXED) { extent } else { slot.with(&extent) };
-        let until = self.chain.min(self.next);
-        if self.begin() >= until || self.is_clear(&extent, until) {
+        let until = self.chain.begin().min(self.next);
+        if self.begin() >= until {
+            return false;
+        }
+        let is_clear = self.is_clear(&extent, until);
+        debug_assert_eq!(is_clear, self.near(&extent, radius, until).next().is_none(), "what is far is far");
+        if is_clear {
             return false;
         }
         self.compared = until;
@@ -241,7 +230,7 @@ impl Window {
         self.entries = vec![Way::default(); room];
         self.turns = vec![Turns::default(); room];
         self.counts = vec![0; room];
-        self.angles = vec![NO_REACH; room];
+        self.chain = Chain::of(room);
         self.boxes = vec![Extent::NOTHING; room / BOXED as usize];
     }
 
@@ -290,79 +279,6 @@ impl Window {
         let boxes = begin / BOXED..=(until - 1) / BOXED;
         let near = boxes.filter(move |&number| self.is_box_near(number, extent, radius));
         near.flat_map(move |number| (number * BOXED).max(begin)..((number + 1) * BOXED).min(until))
-    }
-
-    /// Follows the directions: from which move on they lie within half a turn.
-    #[inline]
-    fn follow(&mut self, number: u64) {
-        let (way, turns) = (self.entry(number), &self.turns[self.index(number)]);
-        let (track, turn) = match way.part {
-            Some(Part::Along) if way.beside => (&way.element, &turns[1]),
-            Some(Part::Round) => (&way.centre, &turns[0]),
-            _ => return self.break_off(number + 1),
-        };
-        let (begins, ends, sweep) = if track.is_arc {
-            let [begins, ends] = track.curve(turn).directions().map(direction);
-            (begins, ends, turn.sweep)
-        } else {
-            let begins = direction(less(track.ends[1], track.ends[0]));
-            (begins, begins, 0.0)
-        };
-        if !begins.is_finite() || !ends.is_finite() {
-            return self.break_off(number + 1);
-        }
-        let turn = self.last.map_or(0.0, |[_, last]| shortest(begins - last));
-        let first = self.last.map_or(0.0, |[angle, _]| angle) + turn;
-        let mut swept = ends - begins;
-        if sweep != 0.0 {
-            let quarters = sweep / std::f64::consts::FRAC_PI_2;
-            swept += 4.0 * ((quarters - swept) / 4.0).round();
-        }
-        let own = [least(first, first + swept), most(first, first + swept)];
-        if self.last.is_none() || turn.abs() > EITHER_WAY {
-            self.break_off(number);
-        }
-        self.last = Some([first + swept, ends]);
-        self.shorten(number, own);
-    }
-
-    /// Takes the directions of a move and leaves out of the chain what they do not lie within half a turn of.
-    fn shorten(&mut self, number: u64, own: [f64; 2]) {
-        let mask = self.mask();
-        let index = |number: u64| (number & mask) as usize;
-        let mut chain = self.chain.max(number.saturating_sub(mask));
-        self.angles[index(number)] = own;
-        let mut reach = wider(self.reach, own);
-        let fits = |all: [f64; 2]| all[1] - all[0] <= HALF_TURN;
-        while chain < number {
-            if chain < self.summed {
-                if fits(wider(self.angles[index(chain)], reach)) {
-                    break;
-                }
-                chain += 1;
-            } else if fits(reach) {
-                break;
-            } else {
-                // Each move is summed up once.
-                let mut all = NO_REACH;
-                for earlier in (chain..=number).rev() {
-                    let angle = &mut self.angles[index(earlier)];
-                    all = wider(all, *angle);
-                    *angle = all;
-                }
-                self.summed = number + 1;
-                reach = NO_REACH;
-            }
-        }
-        self.chain = chain;
-        self.reach = reach;
-    }
-
-    fn break_off(&mut self, from: u64) {
-        self.chain = from;
-        self.summed = from;
-        self.reach = NO_REACH;
-        self.last = None;
     }
 
     /// Looks whether the latest element comes to an earlier one; then what lies before that place and what will lie
@@ -434,32 +350,9 @@ impl Window {
     }
 }
 
-const NO_REACH: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
-
-fn wider(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
-    [least(one[0], other[0]), most(one[1], other[1])]
-}
-
 /// A straight piece at a corner that leads across the contour, to the other side of it.
 #[inline]
 fn crosses_the_path(way: &Way, turns: &Turns, corner: Option<Vector>) -> bool {
     let leads_across = |corner| distance(way.centre(turns).nearest(corner), corner) < way.radius - LEAST_MM;
     way.part == Some(Part::Round) && !way.centre.is_arc && corner.is_some_and(leads_across)
-}
-
-/// A direction as a number from 0 to 4 that grows with its angle; opposite ones differ by 2.
-fn direction(way: Vector) -> f64 {
-    let part = way[0] / (way[0].abs() + way[1].abs());
-    if way[1] >= 0.0 { 1.0 - part } else { 3.0 + part }
-}
-
-/// The shorter way round.
-fn shortest(turn: f64) -> f64 {
-    if turn > 2.0 {
-        turn - 4.0
-    } else if turn < -2.0 {
-        turn + 4.0
-    } else {
-        turn
-    }
 }
