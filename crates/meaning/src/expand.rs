@@ -3,6 +3,7 @@
 use base::{AXES, AxisSet, Point};
 use dialect::M01OffOutput;
 
+use crate::arc::closed_arc;
 use crate::centring::Centring;
 use crate::command::{Body, Command, Finish, TipMove};
 use crate::cycle::{Cursor, Holes, Spindle, Step, begins_at_r, next_step};
@@ -395,32 +396,6 @@ impl Expansion {
 #[inline(never)]
 fn cut(act: &mut Act, to: &Point, feed: &Feed) {
     *act = Act::Line { to: to_mm(to), feed: *feed };
-}
-
-/// An arc and the straight piece from its end to where the block ends.
-#[cold]
-#[inline(never)]
-fn closed_arc(body: &Body, phase: u8) -> Option<Act> {
-    let Body::Arc { to, center, axes, plane, clockwise, foot: Some(foot), feed, .. } = body else { return None };
-    match phase {
-        0 => {
-            let mut end = *to;
-            for (axis, at) in axes.iter().zip(foot) {
-                end[usize::from(*axis)] = *at;
-            }
-            let arc = ArcMove {
-                to: to_mm(&end),
-                plane: *plane,
-                axes: *axes,
-                center: center.map(|counts| counts / 1e6),
-                clockwise: *clockwise,
-                full_circle: false,
-            };
-            Some(Act::Arc { arc, feed: Feed { exact_stop: false, ..*feed } })
-        }
-        1 => Some(Act::Line { to: to_mm(to), feed: *feed }),
-        _ => None,
-    }
 }
 
 fn spindle_code(spindle: Spindle, setting: &Setting) -> Act {

@@ -4,6 +4,7 @@ mod barriers;
 mod execution;
 mod locks;
 mod states;
+mod telling;
 mod typed;
 
 use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
@@ -331,25 +332,6 @@ impl<L: Library> Session<L> {
         self.motion.overrides()
     }
 
-    /// What has happened and not been handed out yet, without letting time pass.
-    pub fn next_told(&mut self) -> Option<Event> {
-        let event = self.events.get(self.handed_out).copied();
-        self.handed_out += 1;
-        if event.is_none() {
-            self.forget_told();
-        }
-        event
-    }
-
-    fn forget_told(&mut self) {
-        self.events.clear();
-        self.handed_out = 0;
-    }
-
-    fn has_told_all(&self) -> bool {
-        self.handed_out == self.events.len()
-    }
-
     /// Parameters have been written: what is set from them is set anew.
     pub fn take_parameters(&mut self) {
         self.pass_overrides();
@@ -375,58 +357,6 @@ impl<L: Library> Session<L> {
     fn tell(&mut self, place: Place, kind: EventKind) {
         let time = self.machine.time();
         self.events.push(Event { time, place, kind });
-    }
-
-    /// The next thing that happens.
-    #[expect(clippy::should_implement_trait, reason = "it never ends for good: an operator can start again")]
-    pub fn next(&mut self) -> Step {
-        loop {
-            if let Some(event) = self.next_told() {
-                return Step::Event(event);
-            }
-            if let Some(step) = self.go_on() {
-                return step;
-            }
-        }
-    }
-
-    /// As [`Session::next`] for whoever takes many events: what happened next, all of it at once, changes places with
-    /// `told`, which is empty. `Some` if nothing happens, and why.
-    pub fn next_events(&mut self, told: &mut Vec<Event>) -> Option<Step> {
-        while self.has_told_all() {
-            self.forget_told();
-            if let Some(step) = self.go_on() {
-                return Some(step);
-            }
-        }
-        self.events.drain(..self.handed_out);
-        self.handed_out = 0;
-        std::mem::swap(&mut self.events, told);
-        None
-    }
-
-    /// Goes on by a shape or an answer; `Some` where nothing happens by itself.
-    #[inline]
-    fn go_on(&mut self) -> Option<Step> {
-        if let Some(error) = self.failed.take() {
-            self.ended = true;
-            return Some(Step::Failed(error));
-        }
-        if self.stopped {
-            return Some(Step::Stopped);
-        }
-        if self.ended || self.alarm.is_some() || self.goes_round() {
-            return Some(Step::Idle);
-        }
-        if self.pull() {
-            self.pulled = self.stands_still() || self.alarm.is_some();
-            if !self.pulled {
-                self.execute();
-            } else if self.has_told_all() {
-                return Some(Step::Idle);
-            }
-        }
-        None
     }
 
     /// The place of a block of which nothing has been executed yet, told once for each; `None` if something else
