@@ -3,6 +3,7 @@
 use base::{Alarm, Place, Point, Seconds};
 use dialect::GroupCodes;
 use meaning::{CodeLine, CodeOut, Dwell, EndKind, SetValue, StopKind};
+use motion::Pace;
 use path::Arc;
 
 /// What makes automatic operation stop so that it can go on.
@@ -53,6 +54,8 @@ pub enum EventKind {
         duration: Seconds,
         /// Its straight length.
         length: f64,
+        /// How it ran.
+        pace: Pace,
     },
     /// A straight cut.
     Feed {
@@ -66,6 +69,8 @@ pub enum EventKind {
         duration: Seconds,
         /// Its length.
         length: f64,
+        /// How it ran.
+        pace: Pace,
     },
     /// An arc or helix.
     Arc {
@@ -77,6 +82,8 @@ pub enum EventKind {
         duration: Seconds,
         /// Its length.
         length: f64,
+        /// How it ran.
+        pace: Pace,
     },
     /// A dwell.
     Dwell(Dwell),

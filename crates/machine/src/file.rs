@@ -109,12 +109,19 @@ impl MachineFile {
 
     /// The machine as motion sees it.
     pub fn limits(&self) -> Limits {
-        let mut axes = [AxisLimits { rapid: 0.0, max_feed: 0.0, acceleration: 0.0 }; AXES];
+        let mut axes = [AxisLimits::default(); AXES];
         for (limits, axis) in axes.iter_mut().zip(&self.axes) {
             let acceleration = axis.acceleration;
-            *limits = AxisLimits { rapid: axis.rapid / 60.0, max_feed: axis.max_feed / 60.0, acceleration };
+            let jerk = f64::INFINITY;
+            *limits = AxisLimits { rapid: axis.rapid / 60.0, max_feed: axis.max_feed / 60.0, acceleration, jerk };
         }
-        Limits { axes, count: self.axes.len(), straight_rapid: self.straight_rapid }
+        Limits {
+            axes,
+            count: self.axes.len(),
+            straight_rapid: self.straight_rapid,
+            corner_tolerance: 0.01,
+            ..Limits::default()
+        }
     }
 
     /// The limits of travel.

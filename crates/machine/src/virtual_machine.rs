@@ -235,26 +235,30 @@ impl VirtualMachine {
     /// Runs a shape that is this part of the timed one.
     fn run(&mut self, shape: &Shape, timed: &Timed<'_>, part: f64, told: &mut Vec<Event>) {
         let place = &timed.shaped.place;
-        let Timed { duration, length, feed, .. } = *timed;
+        let Timed { duration, length, feed, pace, .. } = *timed;
         let (duration, length) = (Seconds(duration.0 * part), length * part);
         self.time += duration;
         let (time, place) = (self.time, *place);
         match shape {
             Shape::Rapid { from, to, .. } => {
                 self.position = *to;
-                told.push(Event { time, place, kind: EventKind::Rapid { from: *from, to: *to, duration, length } });
+                told.push(Event {
+                    time,
+                    place,
+                    kind: EventKind::Rapid { from: *from, to: *to, duration, length, pace },
+                });
             }
             Shape::Line { from, to, .. } => {
                 self.position = *to;
                 told.push(Event {
                     time,
                     place,
-                    kind: EventKind::Feed { from: *from, to: *to, feed, duration, length },
+                    kind: EventKind::Feed { from: *from, to: *to, feed, duration, length, pace },
                 });
             }
             Shape::Arc { arc, .. } => {
                 self.position = arc.to;
-                told.push(Event { time, place, kind: EventKind::Arc { arc: *arc, feed, duration, length } });
+                told.push(Event { time, place, kind: EventKind::Arc { arc: *arc, feed, duration, length, pace } });
             }
             _ => {}
         }

@@ -27,6 +27,7 @@ use crate::unknown::letter_bit;
 ///
 /// [`Interpreter::select`] a program, then pull with [`Interpreter::next`]; barriers are answered with
 /// [`Interpreter::resume`]. Reading runs ahead of execution by as many blocks as the control's buffer holds.
+#[derive(Clone)]
 pub struct Interpreter {
     pub(crate) reader: Reader,
     queue: Queue,

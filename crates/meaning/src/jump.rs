@@ -103,6 +103,7 @@ const REMEMBERED: usize = 64;
 const INDEXED: usize = 65_536;
 
 /// The levels of calls, and what is known of jumps.
+#[derive(Clone)]
 pub(crate) struct Calls {
     pub frames: Vec<Frame>,
     pub levels: usize,
@@ -114,7 +115,7 @@ pub(crate) struct Calls {
 }
 
 /// Where the programs of texts begin, as far as the texts have been read for them.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct ProgramIndex {
     programs: BTreeMap<(SourceId, u32), Found>,
     read_to: BTreeMap<SourceId, (Cursor, bool)>,

@@ -29,7 +29,7 @@ const MOST_NAMES: usize = 65_536;
 pub(crate) type CallName = Option<Result<ProgramKey, Condition>>;
 
 /// The names of programs, each kept once.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Names {
     names: Vec<String>,
     by_name: BTreeMap<String, u32>,

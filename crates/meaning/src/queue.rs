@@ -6,6 +6,7 @@ use crate::command::Command;
 const HELD: usize = 16;
 
 /// A ring of commands. The front one is being executed; a new one is written in its place and then taken in.
+#[derive(Clone)]
 pub(crate) struct Queue {
     ring: Vec<Command>,
     front: usize,

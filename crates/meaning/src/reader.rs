@@ -50,6 +50,7 @@ pub(crate) enum Read {
 }
 
 /// A value that a statement wrote, to be told before the block that was read after it.
+#[derive(Clone)]
 pub(crate) struct Note {
     pub before: u64,
     pub place: Place,
@@ -57,6 +58,7 @@ pub(crate) struct Note {
 }
 
 /// The reader.
+#[derive(Clone)]
 pub(crate) struct Reader {
     pub setting: Setting,
     pub supply: Supply,

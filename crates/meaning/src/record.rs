@@ -96,7 +96,7 @@ pub struct StatementRuns {
 }
 
 /// The records of the blocks read last.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Records {
     kept: VecDeque<(u64, WordsRead)>,
     statements: BTreeMap<(SourceId, u64), StatementRuns>,

@@ -28,6 +28,7 @@ enum Stage {
 }
 
 /// A search in progress.
+#[derive(Clone)]
 pub(crate) struct Search {
     target: Target,
     main: SourceId,

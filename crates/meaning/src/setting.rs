@@ -11,6 +11,7 @@ use crate::record::WordsRead;
 use crate::unknown::letter_bit;
 
 /// What holds while programs run.
+#[derive(Clone)]
 pub(crate) struct Setting {
     pub control: Arc<Control>,
     pub fitting: Fitting,

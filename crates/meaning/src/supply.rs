@@ -12,6 +12,7 @@ pub const WINDOW: usize = 64 * 1024;
 /// How many windows are kept.
 const WINDOWS: usize = 4;
 
+#[derive(Clone)]
 struct Window {
     source: SourceId,
     start: u64,
@@ -23,6 +24,7 @@ struct Window {
 }
 
 /// The windows.
+#[derive(Clone)]
 pub(crate) struct Supply {
     windows: Vec<Window>,
     formats: BTreeMap<SourceId, Format>,

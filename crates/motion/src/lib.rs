@@ -6,12 +6,20 @@
 //! As built: every move starts and ends at rest and accelerates along a trapezoid. Looking ahead over block borders
 //! comes later and changes durations only.
 
+mod cell;
+mod corner;
+mod horizon;
 mod limits;
 mod overrides;
+mod planner;
 mod profile;
 mod stage;
+mod way;
 
-pub use limits::{AxisLimits, Limits};
+pub use horizon::{Horizon, Leg, MOST_CELLS, Move, Setpoint};
+pub use limits::{AxisLimits, Classic, Limits, Model};
 pub use overrides::Overrides;
+pub use planner::{Ahead, Pace, Stretch};
 pub use profile::Trapezoid;
 pub use stage::{Motion, Timed};
+pub use way::Way;

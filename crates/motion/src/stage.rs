@@ -4,9 +4,12 @@ use base::{AXES, Point, Seconds};
 use meaning::{Answer, Feed, Pull, StaleBarrier};
 use path::{Arc, Path, Shape, Shaped};
 
+use crate::horizon::Move;
 use crate::limits::Limits;
 use crate::overrides::Overrides;
+use crate::planner::{Ahead, Pace, Planner, Stretch};
 use crate::profile::Trapezoid;
+use crate::way::Way;
 
 /// A shape with its time.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -19,6 +22,8 @@ pub struct Timed<'s> {
     pub length: f64,
     /// Feed of the tool centre along the path, mm/min, as commanded; zero for what is no cut.
     pub feed: f64,
+    /// How it runs, where moves are planned together.
+    pub pace: Pace,
 }
 
 /// The stage that gives paths their time.
@@ -27,17 +32,136 @@ pub struct Motion {
     pub upstream: Path,
     limits: Limits,
     overrides: Overrides,
+    planner: Option<Box<Planner>>,
+    /// The time of the present shape, s, and how it runs, once it has been planned.
+    planned: Option<(f64, Pace)>,
 }
+
+/// How a shape stands to the moves before and behind it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Joins {
+    /// It is driven with them.
+    Move(Move),
+    /// It is nothing to them.
+    Nothing,
+    /// The axes stand before it, and behind it.
+    Rest,
+}
+
+/// A shape as the planner sees it.
+pub(crate) fn as_move(shape: &Shape, limits: &Limits) -> Joins {
+    let joined = |way: Way, feed: &Feed, share: f64| {
+        if way.length() > SHORTEST {
+            Joins::Move(Move { way, feed: *feed, share, stops: feed.exact_stop })
+        } else {
+            Joins::Nothing
+        }
+    };
+    match shape {
+        Shape::Line { from, to, feed } => {
+            let way = Way::line(from, to, limits.count);
+            // The feed of the tool's tip, whose way is another than that of the axes.
+            let share = if feed.way_mm > 0.0 { way.length() / feed.way_mm } else { 1.0 };
+            joined(way, feed, share)
+        }
+        Shape::Arc { arc, feed } => {
+            let (plane_length, way) = (arc.plane_length(), Way::arc(arc));
+            if plane_length > SHORTEST { joined(way, feed, way.length() / plane_length) } else { Joins::Nothing }
+        }
+        _ => Joins::Rest,
+    }
+}
+
+/// A way not longer than this, mm, is none: far below any increment.
+const SHORTEST: f64 = 1e-7;
 
 impl Motion {
     /// The stage behind a path, under these limits.
     pub fn new(upstream: Path, limits: Limits) -> Motion {
-        Motion { upstream, limits, overrides: Overrides::default() }
+        Motion { upstream, limits, overrides: Overrides::default(), planner: None, planned: None }
+    }
+
+    /// Moves are planned together with those behind them, which [`Motion::show`] is shown; without it each one begins
+    /// and ends at rest.
+    pub fn plan_ahead(&mut self) {
+        let mut planner = Planner::new(self.limits);
+        planner.set_overrides(self.overrides);
+        self.planner = Some(Box::new(planner));
+    }
+
+    /// The same stage that does not plan.
+    #[must_use]
+    pub fn unplanned(&self) -> Motion {
+        let Motion { upstream, limits, overrides, .. } = self;
+        Motion { upstream: upstream.clone(), limits: *limits, overrides: *overrides, planner: None, planned: None }
+    }
+
+    /// True if moves are planned together.
+    pub fn plans(&self) -> bool {
+        self.planner.is_some()
+    }
+
+    /// Keeps how the move planned last is driven.
+    pub fn keep_stretches(&mut self) {
+        if let Some(planner) = &mut self.planner {
+            planner.keep_stretches();
+        }
+    }
+
+    /// How the move planned last is driven, stretch by stretch.
+    pub fn stretches(&self) -> &[Stretch] {
+        match (&self.planner, &self.planned) {
+            (Some(planner), Some(_)) => planner.stretches(),
+            _ => &[],
+        }
+    }
+
+    /// True if the present shape is a move that is driven together with others, and not what was shown.
+    pub fn is_surprised(&self) -> bool {
+        let shape = &self.upstream.current().shape;
+        self.is_joined() && self.planner.as_ref().is_some_and(|planner| !planner.expects(shape))
+    }
+
+    /// True if the present shape is driven together with others.
+    pub fn is_joined(&self) -> bool {
+        matches!(as_move(&self.upstream.current().shape, &self.limits), Joins::Move(_))
+    }
+
+    /// True if the next move that is driven together with others has been shown.
+    pub fn knows_next(&self) -> bool {
+        self.planner.as_ref().is_some_and(|planner| planner.knows())
+    }
+
+    /// True while more of what follows the present move is to be shown.
+    pub fn wants_more(&mut self) -> bool {
+        self.planner.as_mut().is_some_and(|planner| planner.wants_more())
+    }
+
+    /// Shows what follows.
+    pub fn show(&mut self, ahead: &Ahead) {
+        if let Some(planner) = &mut self.planner {
+            planner.show(ahead);
+        }
+    }
+
+    /// What was shown does not come; the axes stand.
+    pub fn forget_ahead(&mut self) {
+        if let Some(planner) = &mut self.planner {
+            planner.forget();
+        }
+    }
+
+    /// Plans the present move, which has been shown.
+    pub fn plan(&mut self) {
+        self.planned = self.planner.as_mut().filter(|planner| planner.knows()).map(|planner| planner.drive());
     }
 
     /// The speeds as the operator has set them, from the next move on.
     pub fn set_overrides(&mut self, overrides: Overrides) {
         self.overrides = overrides;
+        if let Some(planner) = &mut self.planner {
+            planner.set_overrides(overrides);
+        }
     }
 
     /// The speeds as the operator has set them.
@@ -56,6 +180,7 @@ impl Motion {
     /// Advances to the next shape; [`Motion::current`] gives it.
     #[expect(clippy::should_implement_trait, reason = "a pull has barriers, which an iterator does not")]
     pub fn next(&mut self) -> Pull<()> {
+        self.planned = None;
         match self.upstream.next() {
             Pull::Item(_) => Pull::Item(()),
             Pull::Barrier(barrier) => Pull::Barrier(barrier),
@@ -65,19 +190,31 @@ impl Motion {
 
     /// The shape that [`Motion::next`] has come to, with its time.
     pub fn current(&self) -> Timed<'_> {
-        self.time(self.upstream.current())
+        let timed = self.time(self.upstream.current());
+        match self.planned {
+            None => timed,
+            Some((seconds, pace)) => Timed { duration: Seconds(seconds), pace, ..timed },
+        }
     }
 
     /// A shape with its time.
     pub fn time<'s>(&self, shaped: &'s Shaped) -> Timed<'s> {
+        let mut pace = Pace::default();
         let (seconds, length, feed) = match &shaped.shape {
-            Shape::Rapid { from, to, .. } => self.rapid(from, to),
+            Shape::Rapid { from, to, .. } => {
+                let rapid = self.rapid(from, to);
+                if self.planner.is_some() {
+                    let asked = self.rapid_rate(from, to, rapid.1) as f32;
+                    pace = Pace { asked, allowed: asked, ..pace };
+                }
+                rapid
+            }
             Shape::Line { from, to, feed } => self.line(from, to, feed),
             Shape::Arc { arc, feed } => self.arc(arc, feed),
             Shape::Dwell(dwell) => (self.overrides.dwell(*dwell), 0.0, 0.0),
             _ => (0.0, 0.0, 0.0),
         };
-        Timed { shaped, duration: Seconds(seconds), length, feed }
+        Timed { shaped, duration: Seconds(seconds), length, feed, pace }
     }
 
     fn rapid(&self, from: &Point, to: &Point) -> (f64, f64, f64) {
@@ -96,6 +233,13 @@ impl Motion {
             }
         }
         (longest, length, 0.0)
+    }
+
+    /// The straight speed of positioning in which every axis runs at its rate, or waits for the slowest.
+    fn rapid_rate(&self, from: &Point, to: &Point, length: f64) -> f64 {
+        let needed = |axis: usize| (to[axis] - from[axis]).abs() / self.overrides.rapid(self.limits.axes[axis].rapid);
+        let longest = (0..self.limits.count).map(needed).fold(0.0, f64::max);
+        if longest > 0.0 { length / longest } else { 0.0 }
     }
 
     fn line(&self, from: &Point, to: &Point, feed: &Feed) -> (f64, f64, f64) {

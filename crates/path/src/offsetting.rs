@@ -28,7 +28,7 @@ pub(crate) enum Taken {
 }
 
 /// The part of the stage that runs beside the path.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Offsetting {
     compensation: Compensation,
     /// The block whose ways are counted, and how many of them have been taken.
@@ -48,7 +48,7 @@ pub(crate) struct Offsetting {
 }
 
 /// A way in the buffer.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Way {
     /// Its shape, or why there is none.
     next: Next,

@@ -53,6 +53,13 @@ pub enum Shape {
     Alarm(Alarm),
 }
 
+impl Shape {
+    /// True for a move of the axes.
+    pub fn is_move(&self) -> bool {
+        matches!(self, Shape::Rapid { .. } | Shape::Line { .. } | Shape::Arc { .. })
+    }
+}
+
 /// A shape with where it comes from.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Shaped {

@@ -8,6 +8,7 @@ use crate::offsetting::{Offsetting, Taken};
 use crate::shape::{Shape, Shaped};
 
 /// The stage that makes paths of operations.
+#[derive(Clone)]
 pub struct Path {
     /// The stage before.
     pub upstream: Interpreter,

@@ -103,7 +103,7 @@ impl Summary {
     pub fn add(&mut self, event: &Event) {
         let mut cutting = 0.0;
         match &event.kind {
-            EventKind::Rapid { from, to, duration, length } => {
+            EventKind::Rapid { from, to, duration, length, .. } => {
                 self.moves += 1;
                 self.rapid += duration.0;
                 self.rapid_mm += length;

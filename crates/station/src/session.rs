@@ -3,6 +3,7 @@
 mod barriers;
 mod execution;
 mod locks;
+mod rehearsal;
 mod states;
 mod telling;
 mod typed;
@@ -53,6 +54,9 @@ pub struct Session<L> {
     motion: Motion,
     machine: VirtualMachine,
     library: L,
+    /// What follows, where moves are planned together.
+    rehearsal: Option<Box<Session<rehearsal::Lent>>>,
+    met: rehearsal::Met,
     configuration: Configuration,
     /// The switches, as the operator has set them.
     switches: SessionSwitches,
@@ -86,6 +90,8 @@ pub struct Session<L> {
     told: Option<(u64, Place)>,
     /// The block of which something has been executed last.
     begun: Option<u64>,
+    /// Codes have gone out in the block in execution.
+    codes_out: bool,
     stopped: bool,
     /// By FEED HOLD.
     feed_held: bool,
@@ -126,6 +132,8 @@ impl<L: Library> Session<L> {
             motion,
             machine: virtual_machine,
             library,
+            rehearsal: None,
+            met: None,
             configuration,
             switches,
             in_force: SessionSwitches::default(),
@@ -147,6 +155,7 @@ impl<L: Library> Session<L> {
             between_blocks: true,
             told: None,
             begun: None,
+            codes_out: false,
             stopped: false,
             feed_held: false,
             powered: true,
@@ -258,6 +267,7 @@ impl<L: Library> Session<L> {
 
     /// CYCLE START: begins the selected program, or goes on after a stop.
     pub fn start(&mut self) {
+        self.restart_rehearsal();
         if self.ended {
             let rewound = self.rewound;
             let interpreter = self.interpreter_mut();

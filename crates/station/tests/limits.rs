@@ -50,14 +50,14 @@ fn least_seconds(event: &Event, machine: &MachineFile) -> Option<(f64, f64)> {
             }
             duration
         }
-        EventKind::Feed { from, to, feed, duration, length } => {
+        EventKind::Feed { from, to, feed, duration, length, .. } => {
             for (index, axis) in machine.axes.iter().enumerate() {
                 least = least.max((to[index] - from[index]).abs() * 60.0 / axis.max_feed);
             }
             least = least.max(length * 60.0 / feed);
             duration
         }
-        EventKind::Arc { arc, feed, duration, length } => {
+        EventKind::Arc { arc, feed, duration, length, .. } => {
             for (index, axis) in machine.axes.iter().enumerate() {
                 let mut way = 0.0;
                 for piece in 0..PIECES {

@@ -17,6 +17,7 @@ const BLOCKS_A_TICK: u64 = 512;
 
 pub fn run(arguments: &RunArguments) -> Result<bool, Failure> {
     let mut session = open(&arguments.file, &arguments.setting)?;
+    session.plan_ahead();
     let configuration = session.configuration().clone();
     let (control, machine) = (&configuration.control, &configuration.machine);
     let mut summary = Summary::new(&control.name, &machine.name, machine.axes.iter().map(|axis| axis.letter));

@@ -12,6 +12,9 @@ use crate::show_alarm::show_alarm;
 pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
     let mut session = open(&arguments.file, &arguments.setting)?;
     session.interpreter_mut().tell_variables(true);
+    if arguments.time {
+        session.plan_ahead();
+    }
     let configuration = session.configuration().clone();
     let (control, machine) = (&configuration.control, &configuration.machine);
     let mut tracer = Tracer::new(control, &machine.name, machine.axes.iter().map(|axis| axis.letter));

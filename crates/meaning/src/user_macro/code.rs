@@ -52,7 +52,7 @@ pub(crate) struct Run {
 }
 
 /// Operations of many expressions, each with the place in its block that an alarm points at.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Code {
     ops: Vec<Op>,
     places: Vec<Extent>,

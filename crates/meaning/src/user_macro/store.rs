@@ -63,7 +63,7 @@ pub(crate) struct Target {
 }
 
 /// The kept blocks.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Store {
     pub code: Code,
     /// Shared, so that a line can be carried out while the reader changes, without being copied; behind the first

@@ -226,12 +226,12 @@ impl Watcher {
                 self.reach([from, to]);
                 self.moved(from, to);
             }
-            EventKind::Feed { from, to, feed, duration, length } => {
+            EventKind::Feed { from, to, feed, duration, length, .. } => {
                 self.reach([from, to]);
                 self.cut(*feed, duration.0, *length, [from, to], to);
                 self.moved(from, to);
             }
-            EventKind::Arc { arc, feed, duration, length } => {
+            EventKind::Arc { arc, feed, duration, length, .. } => {
                 let (low, high) = arc.extent();
                 self.reach([&low, &high]);
                 self.cut(*feed, duration.0, *length, [&low, &high], &arc.to);

@@ -60,6 +60,7 @@ impl<L: Library> Session<L> {
                 }
             },
             BarrierKind::NeedValue(quantity) => {
+                self.rest_to_answer(quantity);
                 let value = self.value_of(quantity);
                 self.motion.resume(barrier.id, Answer::Value(value))
             }

@@ -4,7 +4,7 @@ use base::{Alarm, AxisSet, Condition, Place, Seconds};
 use dialect::{MMeaning, Occasion};
 use machine::{EventKind, Machine, Refusal, ResetCause, StopCause};
 use meaning::{Close, CodeLine, CodeOut, EndKind, State, StopKind};
-use motion::Timed;
+use motion::{Pace, Timed};
 use path::{Shape, Shaped};
 
 use super::{AfterAlarm, Session};
@@ -79,6 +79,18 @@ impl<L: Library> Session<L> {
     }
 
     fn execute_shape(&mut self) -> Result<(), Refusal> {
+        let shape = &self.motion.upstream.current().shape;
+        let (moves, measures) = (shape.is_move(), self.motion.upstream.current().until_signal);
+        match shape {
+            _ if moves => {
+                self.plan();
+                if measures {
+                    self.rest();
+                }
+            }
+            Shape::Code(_) | Shape::Dwell(_) | Shape::Await(_) => self.rest(),
+            _ => {}
+        }
         let Some(shaped) = self.real_shape() else {
             return self.machine.execute(&self.motion.current(), &mut self.events);
         };
@@ -124,8 +136,13 @@ impl<L: Library> Session<L> {
 
     /// Sends the codes that begin the block.
     fn send_codes(&mut self) {
+        if !self.codes.is_empty() {
+            self.rest();
+            self.codes_out = true;
+        }
         for shaped in self.codes.drain(..) {
-            let timed = Timed { shaped: &shaped, duration: Seconds(0.0), length: 0.0, feed: 0.0 };
+            let timed =
+                Timed { shaped: &shaped, duration: Seconds(0.0), length: 0.0, feed: 0.0, pace: Pace::default() };
             // A code is no move, so the machine has nothing to refuse.
             let _ = self.machine.execute(&timed, &mut self.events);
         }
@@ -172,6 +189,7 @@ impl<L: Library> Session<L> {
     }
 
     fn stop(&mut self, place: Place, kind: StopKind) {
+        self.rest();
         self.stopped = true;
         self.tell(place, EventKind::Stop(StopCause::Program(kind)));
     }
@@ -181,6 +199,9 @@ impl<L: Library> Session<L> {
         self.settle_returned(&place);
         // #3003 bit 1: the program does not wait for FIN.
         let waits = self.executing_state(|state| state.block_control & 2 == 0);
+        if std::mem::take(&mut self.codes_out) && waits {
+            self.rest();
+        }
         self.machine.finish_block(&place, waits, &mut self.events);
         match close {
             Close::Stop(kind) => self.stop(place, kind),

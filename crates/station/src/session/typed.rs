@@ -13,7 +13,7 @@ pub const TYPED: SourceId = SourceId(u32::MAX);
 const TYPED_NAME: &str = "MDI";
 
 /// What has been typed, and the program in memory that waits meanwhile.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Typed {
     pub text: Vec<u8>,
     /// It has been started: the next block typed begins a new text.

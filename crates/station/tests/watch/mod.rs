@@ -201,16 +201,16 @@ impl Watch {
             self.check_place(event, session);
         }
         match &event.kind {
-            EventKind::Rapid { from, to, duration, length } => {
+            EventKind::Rapid { from, to, duration, length, .. } => {
                 self.check_move(event, from, to, duration.0, *length);
                 self.position = *to;
             }
-            EventKind::Feed { from, to, feed, duration, length } => {
+            EventKind::Feed { from, to, feed, duration, length, .. } => {
                 self.check_feed(event, *feed);
                 self.check_move(event, from, to, duration.0, *length);
                 self.position = *to;
             }
-            EventKind::Arc { arc, feed, duration, length } => {
+            EventKind::Arc { arc, feed, duration, length, .. } => {
                 self.check_feed(event, *feed);
                 let numbers = [arc.center, arc.radius, [arc.sweep, arc.start_angle]].concat();
                 assert!(numbers.iter().all(|number| number.is_finite()), "{event:?}");

@@ -1,0 +1,323 @@
+//! What the control sees of the path before it: moves in, their time out.
+//!
+//! Moves are cut into cells; backwards from the farthest, where it must be able to stand, each cell learns the
+//! highest speed from which all the rest can be kept to. Where that is the cell's own limit, what lies farther off
+//! does not matter: everything up to there is settled, however much path is still to come. A move is driven once it
+//! is settled, so no look-ahead of any length would drive it faster; only where [`MOST_CELLS`] are not enough
+//! it may be slower.
+
+mod drive;
+mod settle;
+
+use std::collections::VecDeque;
+
+use base::Point;
+use meaning::Feed;
+
+use drive::Drive;
+pub use drive::{Leg, Setpoint};
+
+use crate::cell::{Cell, Ends};
+use crate::corner::{Corner, corner};
+use crate::limits::{AxisLimits, Limits};
+use crate::overrides::Overrides;
+use crate::way::{Way, norm};
+
+/// The longest look-ahead, cells. A program of points 1 µm apart is then seen 16 mm ahead.
+pub const MOST_CELLS: usize = 16_384;
+/// Radians that a cell turns at most: between its ends an acceleration can be 1 / cos(half of it) of what it is there.
+const WIDEST: f64 = 0.08;
+/// Cells of a bent way that begins or ends with a stop: speed rises and falls in steps of cells.
+const FINEST: usize = 16;
+/// Most cells of a single way.
+const MOST_OF_A_WAY: usize = 512;
+
+/// A cutting move.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Move {
+    /// Where it leads.
+    pub way: Way,
+    /// How fast it shall be.
+    pub feed: Feed,
+    /// Speed along the way for each of the commanded one.
+    pub share: f64,
+    /// What comes next waits until the axes stand.
+    pub stops: bool,
+}
+
+/// How fast a move shall be.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Asked {
+    feed: Feed,
+    share: f64,
+}
+
+/// A move whose cells have not been cut yet: how its way ends is not known.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Open {
+    way: Way,
+    /// The number of the way, and that of the move.
+    number: u64,
+    mover: u64,
+    /// Where its cells begin.
+    from: f64,
+    /// The axes stand at its beginning.
+    from_rest: bool,
+}
+
+/// The moves ahead.
+#[derive(Clone, Debug)]
+pub struct Horizon {
+    limits: Limits,
+    overrides: Overrides,
+    cells: VecDeque<Cell>,
+    /// The ways of the cells, and the first one's number.
+    ways: VecDeque<Way>,
+    first_way: u64,
+    /// What the moves of the cells ask for, and the first one's number.
+    asked: VecDeque<Asked>,
+    first_move: u64,
+    open: Option<Open>,
+    /// The axes stand behind the last cell.
+    closed: bool,
+    /// Cells whose highest speed is final.
+    settled: usize,
+    /// So many cells are to be seen before looking again.
+    goal: usize,
+    drive: Drive,
+}
+
+impl Horizon {
+    /// Nothing ahead, the axes standing.
+    pub fn new(limits: Limits) -> Horizon {
+        Horizon {
+            limits,
+            overrides: Overrides::default(),
+            cells: VecDeque::new(),
+            ways: VecDeque::new(),
+            first_way: 0,
+            asked: VecDeque::new(),
+            first_move: 0,
+            open: None,
+            closed: false,
+            settled: 0,
+            goal: 0,
+            drive: Drive::default(),
+        }
+    }
+
+    /// Forgets everything ahead; the axes stand.
+    pub fn clear(&mut self) {
+        self.cells.clear();
+        self.ways.clear();
+        self.asked.clear();
+        self.open = None;
+        self.closed = false;
+        (self.settled, self.goal) = (0, 0);
+        self.drive = Drive::default();
+    }
+
+    /// True if nothing is ahead.
+    pub fn is_empty(&self) -> bool {
+        self.asked.is_empty()
+    }
+
+    /// True if the axes stand behind the last move: what follows is added when that has been driven.
+    pub fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// Adds the next move. It is not added to a closed horizon, and it has a length.
+    pub fn add(&mut self, next: &Move) {
+        debug_assert!(!self.closed && next.way.length() > 0.0, "nothing is seen behind a stop");
+        let mover = self.first_move + self.asked.len() as u64;
+        self.asked.push_back(Asked { feed: next.feed, share: next.share });
+        let mut open = Open { way: next.way, number: 0, mover, from: 0.0, from_rest: true };
+        if let Some(last) = self.open.take() {
+            self.join(&last, &mut open);
+        }
+        open.number = self.keep(next.way);
+        self.open = Some(open);
+        if next.stops {
+            self.stop();
+        }
+    }
+
+    /// The axes stand behind the last move.
+    pub fn stop(&mut self) {
+        if let Some(last) = self.open.take() {
+            self.end_at_rest(&last);
+        }
+        self.closed = !self.cells.is_empty();
+    }
+
+    /// Cuts the end of one way and the corner into the next.
+    fn join(&mut self, last: &Open, next: &mut Open) {
+        let speed = self.wanted(last.mover).min(self.wanted(next.mover));
+        match corner(&self.limits, &last.way, &next.way, speed) {
+            Corner::Stop => self.end_at_rest(last),
+            Corner::Passed => {
+                next.from_rest = false;
+                self.cut(last, last.way.length(), false);
+                self.end_move(Ends::AtEnd, false);
+                self.link(pace(&next.way, 0.0));
+            }
+            Corner::Rounded(arm) => {
+                (next.from, next.from_rest) = (arm, false);
+                let end = last.way.length() - arm;
+                self.cut(last, end, false);
+                self.link(1.0);
+                let [before, after] = [heading(&last.way, end), heading(&next.way, arm)];
+                let blend = Way::blend(&last.way.at(end), &before, &next.way.at(arm), &after, 2.0 * arm);
+                self.cut_blend(&blend, [last.mover, next.mover], turn(&before, &after));
+                self.link(pace(&next.way, arm));
+            }
+        }
+    }
+
+    fn end_at_rest(&mut self, last: &Open) {
+        self.cut(last, last.way.length(), true);
+        self.end_move(Ends::AtEnd, true);
+    }
+
+    /// The cell before goes over into a way that runs at this pace.
+    fn link(&mut self, next: f64) {
+        let number = self.cells.back().map(|cell| (cell.way, cell.part[1]));
+        let own = number.and_then(|(number, end)| self.way(number).map(|way| pace(way, end)));
+        if let (Some(own), Some(cell)) = (own, self.cells.back_mut()) {
+            let ratio = next / own;
+            cell.gain = ratio * ratio;
+        }
+    }
+
+    fn cut(&mut self, open: &Open, end: f64, to_rest: bool) {
+        let length = end - open.from;
+        if length <= 0.0 {
+            return;
+        }
+        let mut pieces = 1;
+        if let Way::Arc { arc, length: whole } = &open.way {
+            let turned = arc.sweep.abs() * length / whole;
+            let least = if to_rest || open.from_rest { FINEST } else { 2 };
+            pieces = ((turned / WIDEST).ceil() as usize).clamp(least, MOST_OF_A_WAY);
+        }
+        self.push((open.number, &open.way), [open.from, end], pieces, [open.mover; 2]);
+    }
+
+    fn cut_blend(&mut self, blend: &Way, movers: [u64; 2], turn: f64) {
+        let number = self.keep(*blend);
+        let length = blend.length();
+        let pieces = (turn / WIDEST).ceil() as usize;
+        if pieces <= 1 {
+            self.push((number, blend), [0.0, length], 1, movers);
+            return self.end_move(Ends::At(length / 2.0), false);
+        }
+        let half = pieces.div_ceil(2);
+        self.push((number, blend), [0.0, length / 2.0], half, movers);
+        self.end_move(Ends::AtEnd, false);
+        self.push((number, blend), [length / 2.0, length], half, movers);
+    }
+
+    fn push(&mut self, (number, way): (u64, &Way), [from, to]: [f64; 2], pieces: usize, movers: [u64; 2]) {
+        let rate = self.rate(movers[0]);
+        let feed_allows = self.feed_allows(movers);
+        let step = (to - from) / pieces as f64;
+        let mut start = from;
+        for piece in 1..=pieces {
+            let end = if piece == pieces { to } else { from + step * piece as f64 };
+            let mut cell = Cell::new(&self.limits, (number, way), [start, end], rate);
+            (cell.moves, cell.feed_allows) = (movers, feed_allows);
+            self.cells.push_back(cell);
+            start = end;
+        }
+    }
+
+    fn end_move(&mut self, ends: Ends, stops: bool) {
+        if let Some(cell) = self.cells.back_mut() {
+            (cell.ends, cell.stops) = (ends, stops);
+        }
+    }
+
+    fn keep(&mut self, way: Way) -> u64 {
+        self.ways.push_back(way);
+        self.first_way + self.ways.len() as u64 - 1
+    }
+
+    fn way(&self, number: u64) -> Option<&Way> {
+        self.ways.get(number.checked_sub(self.first_way)? as usize)
+    }
+
+    fn asked(&self, mover: u64) -> Option<&Asked> {
+        self.asked.get(mover.checked_sub(self.first_move)? as usize)
+    }
+
+    /// Which rate of an axis bounds a move.
+    fn rate(&self, mover: u64) -> fn(&AxisLimits) -> f64 {
+        match self.asked(mover) {
+            Some(asked) if asked.feed.mm_per_min == f64::INFINITY => |axis| axis.rapid,
+            _ => |axis| axis.max_feed,
+        }
+    }
+
+    /// The speed that a move asks for along its way without overrides, mm/s.
+    fn wanted(&self, mover: u64) -> f64 {
+        self.asked(mover).map_or(0.0, |asked| asked.feed.mm_per_min / 60.0 * asked.share)
+    }
+
+    /// The speed that the next move to end asks for, mm/s along its way, overrides counted in.
+    pub fn next_asks(&self) -> f64 {
+        let next = self.cells.iter().find(|cell| cell.ends != Ends::Not);
+        next.map_or(0.0, |cell| self.feed_allows([cell.moves[0]; 2]).sqrt())
+    }
+
+    /// The squared speed that the feeds of two moves allow, overrides counted in.
+    fn feed_allows(&self, movers: [u64; 2]) -> f64 {
+        let speed = movers.map(|mover| {
+            self.asked(mover).map_or(0.0, |asked| self.overrides.actual(&asked.feed) / 60.0 * asked.share)
+        });
+        let slower = speed[0].min(speed[1]);
+        slower * slower
+    }
+
+    /// The speeds as the operator has set them, from the next setpoint on.
+    pub fn set_overrides(&mut self, overrides: Overrides) {
+        if self.overrides == overrides {
+            return;
+        }
+        self.overrides = overrides;
+        self.cut_here();
+        for index in 0..self.cells.len() {
+            let allows = self.feed_allows(self.cells[index].moves);
+            self.cells[index].feed_allows = allows;
+        }
+        self.settled = 0;
+        self.look_again();
+    }
+}
+
+/// The direction of a way, one mm long.
+fn heading(way: &Way, s: f64) -> Point {
+    let mut slope = way.slope(s);
+    let length = norm(&slope, slope.len());
+    for part in &mut slope {
+        *part /= length;
+    }
+    slope
+}
+
+/// How far the axes move for each mm of a way: one, but for spirals.
+fn pace(way: &Way, s: f64) -> f64 {
+    match way {
+        Way::Arc { arc, .. } if arc.radius[0] != arc.radius[1] => {
+            let slope = way.slope(s);
+            norm(&slope, slope.len())
+        }
+        _ => 1.0,
+    }
+}
+
+/// The angle between two directions, radians.
+fn turn(before: &Point, after: &Point) -> f64 {
+    let apart: Point = std::array::from_fn(|axis| after[axis] - before[axis]);
+    2.0 * libm::asin((norm(&apart, apart.len()) / 2.0).min(1.0))
+}

@@ -1,0 +1,344 @@
+//! Forwards over the horizon: as fast as the settled speeds allow, a whole move or a servo period at a time.
+
+use base::{AXES, Point};
+
+use super::Horizon;
+use crate::cell::{Cell, Ends};
+use crate::way::Way;
+
+/// Cells into which a bent one is cut when the axes stand or turn back in it.
+const CUT_ANEW: usize = 8;
+/// A rest of way shorter than this is none, mm.
+const NOTHING_LEFT: f64 = 1e-9;
+
+/// A stretch of constant acceleration along a way.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Leg {
+    /// Where on its way it begins, mm.
+    pub s: f64,
+    /// The speed there, mm/s.
+    pub speed: f64,
+    /// How the speed changes, mm/s².
+    pub acceleration: f64,
+    /// How long it takes, s.
+    pub seconds: f64,
+}
+
+impl Leg {
+    /// The place on the way after a time, and the speed there.
+    pub fn at(&self, seconds: f64) -> (f64, f64) {
+        let gained = self.acceleration * seconds;
+        (self.s + (self.speed + gained / 2.0) * seconds, self.speed + gained)
+    }
+}
+
+/// Where the axes shall be, and how fast.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Setpoint {
+    /// mm and degrees, machine coordinates.
+    pub position: Point,
+    /// mm/s and degrees/s.
+    pub velocity: Point,
+}
+
+/// The legs of one cell.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+struct Legs {
+    legs: [Leg; 4],
+    count: usize,
+    /// The move ends behind this one.
+    border: Option<usize>,
+    /// The squared speed at the end of the cell, as its way counts; `None` if the axes come to stand in it.
+    end: Option<f64>,
+}
+
+impl Legs {
+    fn push(&mut self, leg: Leg) {
+        if leg.seconds > 0.0 && self.count < self.legs.len() {
+            self.legs[self.count] = leg;
+            self.count += 1;
+        }
+    }
+}
+
+/// How far the first cell has been driven.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(super) struct Drive {
+    /// Squared speed at the start of the first cell.
+    x: f64,
+    /// The legs of the first cell, the one being driven, and the time spent in it.
+    legs: Option<Legs>,
+    leg: usize,
+    spent: f64,
+    /// The axes shall stand as soon as they can.
+    held: bool,
+}
+
+impl Horizon {
+    /// Drives to the end of the next move: how long that takes, s. `leg` is shown every leg on its way, with the
+    /// squared speed that the axes allow there.
+    pub fn drive_move(&mut self, mut leg: impl FnMut(&Way, f64, &Leg)) -> f64 {
+        let mut seconds = 0.0;
+        while self.begin_cell() {
+            let Some(legs) = self.drive.legs else { break };
+            while self.drive.leg < legs.count {
+                let next = &legs.legs[self.drive.leg];
+                let rest = next.seconds - self.drive.spent;
+                let (s, speed) = next.at(self.drive.spent);
+                if let Some((cell, way)) = self.cells.front().and_then(|cell| Some((cell, self.way(cell.way)?))) {
+                    leg(way, cell.axes_allow, &Leg { s, speed, seconds: rest, ..*next });
+                }
+                seconds += rest;
+                self.drive.leg += 1;
+                self.drive.spent = 0.0;
+                if legs.border == Some(self.drive.leg) {
+                    self.drop_move();
+                    return seconds;
+                }
+            }
+            let ended = self.end_cell();
+            if ended {
+                return seconds;
+            }
+        }
+        seconds
+    }
+
+    /// Drives for a time, at most to the end of the next move: the time that is left over, and whether the move has
+    /// ended.
+    pub fn drive_for(&mut self, mut seconds: f64) -> (f64, bool) {
+        while self.begin_cell() {
+            let Some(legs) = self.drive.legs else { break };
+            while self.drive.leg < legs.count {
+                let rest = legs.legs[self.drive.leg].seconds - self.drive.spent;
+                if rest > seconds {
+                    self.drive.spent += seconds;
+                    return (0.0, false);
+                }
+                seconds -= rest;
+                self.drive.leg += 1;
+                self.drive.spent = 0.0;
+                if legs.border == Some(self.drive.leg) {
+                    self.drop_move();
+                    return (seconds, true);
+                }
+            }
+            if legs.end.is_none() {
+                // Held: the axes stand.
+                return (0.0, false);
+            }
+            if self.end_cell() {
+                return (seconds, true);
+            }
+        }
+        (seconds, false)
+    }
+
+    /// Where the axes are now, and how fast; `None` if nothing is under way.
+    pub fn setpoint(&self) -> Option<Setpoint> {
+        let cell = self.cells.front()?;
+        let way = self.way(cell.way)?;
+        let (s, speed) = self.here();
+        let slope = way.slope(s);
+        Some(Setpoint { position: way.at(s), velocity: slope.map(|slope| slope * speed) })
+    }
+
+    /// The acceleration of every axis now, mm/s².
+    pub fn acceleration(&self) -> Point {
+        let (Some(cell), Some(legs)) = (self.cells.front(), &self.drive.legs) else { return [0.0; AXES] };
+        let (Some(way), Some(leg)) = (self.way(cell.way), legs.legs[..legs.count].get(self.drive.leg)) else {
+            return [0.0; AXES];
+        };
+        let (s, speed) = leg.at(self.drive.spent);
+        let (slope, bend) = (way.slope(s), way.bend(s));
+        std::array::from_fn(|axis| slope[axis] * leg.acceleration + bend[axis] * speed * speed)
+    }
+
+    /// True if the axes stand where they have been held.
+    pub fn is_standing(&self) -> bool {
+        self.here().1 <= 0.0
+    }
+
+    /// The axes shall stand as soon as they can, or go on.
+    pub fn hold(&mut self, held: bool) {
+        if self.drive.held != held {
+            self.drive.held = held;
+            self.cut_here();
+            self.settled = 0;
+            self.look_again();
+        }
+    }
+
+    /// The place on the first cell's way, and the speed there.
+    fn here(&self) -> (f64, f64) {
+        let Some(cell) = self.cells.front() else { return (0.0, 0.0) };
+        match &self.drive.legs {
+            None => (cell.part[0], self.drive.x.sqrt()),
+            Some(legs) => match legs.legs[..legs.count].get(self.drive.leg) {
+                Some(leg) => leg.at(self.drive.spent),
+                // Driven to where the axes stand, or to the cell's end.
+                None => match (legs.end, legs.legs[..legs.count].last()) {
+                    (None, Some(last)) => (last.at(last.seconds).0, 0.0),
+                    (None, None) => (cell.part[0], 0.0),
+                    (Some(x), _) => (cell.part[1], x.sqrt()),
+                },
+            },
+        }
+    }
+
+    /// The first cell begins here: what is under way is planned anew from the present place and speed.
+    pub(super) fn cut_here(&mut self) {
+        let (s, speed) = self.here();
+        if self.drive.legs.take().is_none() {
+            return;
+        }
+        (self.drive.leg, self.drive.spent, self.drive.x) = (0, 0.0, speed * speed);
+        let Some(cell) = self.cells.pop_front() else { return };
+        let rest = cell.part[1] - s;
+        let pieces = if cell.straight().is_some() || rest < NOTHING_LEFT { 1 } else { CUT_ANEW };
+        let rate = self.rate(cell.moves[0]);
+        let Some(way) = self.way(cell.way).copied() else { return };
+        let start = s.min(cell.part[1] - NOTHING_LEFT / 2.0);
+        let step = (cell.part[1] - start) / pieces as f64;
+        for piece in (0..pieces).rev() {
+            let end = if piece + 1 == pieces { cell.part[1] } else { start + step * (piece + 1) as f64 };
+            let part = [start + step * piece as f64, end];
+            let mut new = Cell::new(&self.limits, (cell.way, &way), part, rate);
+            (new.moves, new.feed_allows) = (cell.moves, cell.feed_allows);
+            if piece + 1 == pieces {
+                (new.gain, new.stops, new.ends) = (cell.gain, cell.stops, cell.ends);
+            }
+            match cell.ends {
+                Ends::At(border) if part[0] <= border && border < end => new.ends = cell.ends,
+                Ends::At(_) => new.ends = Ends::Not,
+                _ => {}
+            }
+            self.cells.push_front(new);
+        }
+    }
+
+    /// Plans the first cell if it is not; false if there is none.
+    fn begin_cell(&mut self) -> bool {
+        if self.drive.legs.is_some() {
+            return true;
+        }
+        let Some(cell) = self.cells.front() else { return false };
+        let end = self.end_of(0);
+        let mut legs = if self.drive.held { slow_down(cell, self.drive.x) } else { speed_up(cell, self.drive.x, end) };
+        if let Ends::At(border) = cell.ends {
+            split(&mut legs, border);
+        }
+        self.drive.legs = Some(legs);
+        (self.drive.leg, self.drive.spent) = (0, 0.0);
+        true
+    }
+
+    /// Leaves the first cell; true if a move ends with it.
+    fn end_cell(&mut self) -> bool {
+        let Some(cell) = self.cells.pop_front() else { return false };
+        let x = self.drive.legs.take().and_then(|legs| legs.end).unwrap_or(0.0);
+        self.drive.x = if cell.stops { 0.0 } else { x / cell.gain };
+        self.settled = self.settled.saturating_sub(1);
+        self.goal = self.goal.saturating_sub(1);
+        if self.cells.front().is_none_or(|next| next.way != cell.way) {
+            self.ways.pop_front();
+            self.first_way += 1;
+        }
+        if self.cells.is_empty() && self.open.is_none() {
+            self.closed = false;
+        }
+        let ends = cell.ends == Ends::AtEnd;
+        if ends {
+            self.drop_move();
+        }
+        ends
+    }
+
+    fn drop_move(&mut self) {
+        // A corner's feed is that of both moves: the first stays until its corner is driven.
+        let open = self.open.as_ref().map_or(u64::MAX, |open| open.mover);
+        let needed = self.cells.front().map_or(open, |cell| cell.moves[0]);
+        while self.first_move < needed && self.asked.pop_front().is_some() {
+            self.first_move += 1;
+        }
+    }
+}
+
+/// The legs of a cell from one squared speed to at most another.
+fn speed_up(cell: &Cell, x: f64, end: f64) -> Legs {
+    let (start, length) = (cell.part[0], cell.length());
+    let mut legs = Legs::default();
+    let Some(acceleration) = cell.straight() else {
+        let u = cell.hardest(x, end);
+        let reached = (x + 2.0 * u * length).max(0.0);
+        let (first, last) = (x.sqrt(), reached.sqrt());
+        legs.push(Leg { s: start, speed: first, acceleration: u, seconds: 2.0 * length / (first + last) });
+        legs.end = Some(reached);
+        return legs;
+    };
+    let allowed = cell.allowed();
+    let double = 2.0 * acceleration;
+    let end = end.min(allowed).min(x + double * length).max(x - double * length);
+    let peak = if x > allowed { allowed } else { allowed.min((x + end) / 2.0 + acceleration * length).max(x) };
+    let [first, top, last] = [x, peak.max(end), end].map(f64::sqrt);
+    let rising = (top * top - x) / double;
+    let (rise, fall) = (rising.abs(), (top * top - last * last) / double);
+    let cruise = length - rise - fall;
+    legs.push(Leg {
+        s: start,
+        speed: first,
+        acceleration: acceleration.copysign(rising),
+        seconds: (top - first).abs() / acceleration,
+    });
+    if cruise > 0.0 {
+        legs.push(Leg { s: start + rise, speed: top, acceleration: 0.0, seconds: cruise / top });
+    }
+    legs.push(Leg {
+        s: start + length - fall,
+        speed: top,
+        acceleration: -acceleration,
+        seconds: (top - last) / acceleration,
+    });
+    legs.end = Some(end);
+    legs
+}
+
+/// The legs of a cell in which the axes are to stand as soon as they can.
+fn slow_down(cell: &Cell, x: f64) -> Legs {
+    let (start, length) = (cell.part[0], cell.length());
+    let mut legs = Legs::default();
+    let u = cell.softest(x);
+    let speed = x.sqrt();
+    let reached = x + 2.0 * u * length;
+    if reached > 0.0 {
+        let seconds = 2.0 * length / (speed + reached.sqrt());
+        legs.push(Leg { s: start, speed, acceleration: u, seconds });
+        legs.end = Some(reached);
+    } else {
+        legs.push(Leg { s: start, speed, acceleration: u, seconds: speed / -u });
+    }
+    legs
+}
+
+/// Parts the leg in which a border lies.
+fn split(legs: &mut Legs, border: f64) {
+    let whole = *legs;
+    (legs.count, legs.border) = (0, None);
+    for leg in &whole.legs[..whole.count] {
+        let (end, _) = leg.at(leg.seconds);
+        if legs.border.is_some() || end < border {
+            legs.push(*leg);
+            continue;
+        }
+        let way = (border - leg.s).max(0.0);
+        let there = (leg.speed * leg.speed + 2.0 * leg.acceleration * way).max(0.0).sqrt();
+        let seconds = if way > 0.0 { (2.0 * way / (leg.speed + there)).min(leg.seconds) } else { 0.0 };
+        legs.legs[legs.count] = Leg { seconds, ..*leg };
+        legs.count += 1;
+        legs.border = Some(legs.count);
+        legs.push(Leg { s: leg.s + way, speed: there, seconds: leg.seconds - seconds, ..*leg });
+    }
+    if legs.border.is_none() && whole.end.is_some() {
+        legs.border = Some(legs.count);
+    }
+}

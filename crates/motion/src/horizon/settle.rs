@@ -1,0 +1,68 @@
+//! Backwards over the horizon: the highest speed at every cell from which the rest can be kept to.
+
+use super::{Horizon, MOST_CELLS};
+use crate::cell::Ends;
+
+/// Cells that are looked at together at least.
+const BATCH: usize = 64;
+
+impl Horizon {
+    /// True while more of what follows would let the next move be driven faster, or might; with nothing more to come,
+    /// [`Horizon::stop`] says so.
+    pub fn wants_more(&mut self) -> bool {
+        let seen = self.cells.len();
+        if self.closed || seen >= MOST_CELLS {
+            self.settle();
+            return false;
+        }
+        if seen < self.goal {
+            return true;
+        }
+        self.settle();
+        if self.next_is_settled() {
+            return false;
+        }
+        self.goal = (seen + (seen - self.settled).max(BATCH)).min(MOST_CELLS);
+        true
+    }
+
+    /// The cells have changed, so their speeds are to be found anew.
+    pub(super) fn look_again(&mut self) {
+        self.goal = 0;
+        self.settle();
+    }
+
+    /// True if the next move can be driven as fast as if all the rest were known.
+    fn next_is_settled(&self) -> bool {
+        let end = self.cells.iter().position(|cell| cell.ends != Ends::Not);
+        // What is driven in a cell depends on the speed with which the next may begin.
+        end.is_some_and(|end| end + 1 < self.settled || self.cells[end].stops)
+    }
+
+    /// The highest speed that may be driven at the end of a cell.
+    pub(super) fn end_of(&self, index: usize) -> f64 {
+        match (self.cells.get(index), self.cells.get(index + 1)) {
+            (Some(cell), Some(next)) if !cell.stops => next.most * cell.gain,
+            _ => 0.0,
+        }
+    }
+
+    /// Gives every cell that is not final yet its highest speed, and finds which of them are final.
+    fn settle(&mut self) {
+        let seen = self.cells.len();
+        let mut final_from = if self.closed { seen } else { self.settled };
+        for index in (self.settled..seen).rev() {
+            let end = self.end_of(index);
+            let cell = &mut self.cells[index];
+            cell.most = cell.most_before(end);
+            if final_from <= index {
+                // Its own limits hold it, or a stop: not where the look-ahead ends.
+                let is_held = cell.stops || cell.most >= cell.allowed() || cell.most >= cell.most_before(f64::INFINITY);
+                if is_held {
+                    final_from = index + 1;
+                }
+            }
+        }
+        self.settled = final_from.max(self.settled);
+    }
+}

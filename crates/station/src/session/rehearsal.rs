@@ -1,0 +1,243 @@
+//! What follows: a second session that runs ahead of this one on the same texts and shows the planner the moves to come.
+//!
+//! It is the same control with the same memory, so what it meets is what this session will meet, as long as nobody
+//! touches anything; who does calls [`Session::forget_rehearsal`]. Nothing of it is ever executed or told.
+
+use std::collections::VecDeque;
+
+use base::SourceId;
+use meaning::Quantity;
+use motion::Ahead;
+use path::Shape;
+
+use super::{Percents, Session, Step};
+use crate::library::{Library, LibraryError, Wanted};
+
+/// What a rehearsal has met and not shown yet; `None` in a session that is no rehearsal.
+pub(super) type Met = Option<VecDeque<Ahead>>;
+
+/// A text that the rehearsal asks for.
+#[derive(Clone, PartialEq, Eq, Debug)]
+enum Request {
+    Bytes(SourceId, u64, usize),
+    Number(u32, String),
+    File(String),
+}
+
+/// The texts of a rehearsal: those of its session, handed over when it asks for them.
+#[derive(Debug, Default)]
+pub(super) struct Lent {
+    wanted: Option<Request>,
+    /// The answer to a request: bytes, and whether the source ends with them.
+    bytes: Option<(Request, Vec<u8>, bool)>,
+    /// The answer to a request: the source that holds a program, and its name if it is a file.
+    program: Option<(Request, Option<SourceId>)>,
+    name: Option<(SourceId, Option<String>)>,
+}
+
+impl Library for Lent {
+    fn read(&mut self, source: SourceId, offset: u64, len: usize, bytes: &mut Vec<u8>) -> Result<bool, LibraryError> {
+        let request = Request::Bytes(source, offset, len);
+        match &self.bytes {
+            Some((answered, answer, last)) if *answered == request => {
+                bytes.clone_from(answer);
+                Ok(*last)
+            }
+            _ => Err(self.ask(request)),
+        }
+    }
+
+    fn find_program(&mut self, wanted: Wanted) -> Result<Option<SourceId>, LibraryError> {
+        let request = match wanted {
+            Wanted::Number(number, ending) => Request::Number(number, ending.to_owned()),
+            Wanted::File(name) => Request::File(name.to_owned()),
+        };
+        match &self.program {
+            Some((answered, answer)) if *answered == request => Ok(*answer),
+            _ => Err(self.ask(request)),
+        }
+    }
+
+    fn file_name(&self, source: SourceId) -> Option<String> {
+        self.name.as_ref().filter(|(known, _)| *known == source).and_then(|(_, name)| name.clone())
+    }
+}
+
+impl Lent {
+    fn ask(&mut self, request: Request) -> LibraryError {
+        self.wanted = Some(request);
+        LibraryError(String::new())
+    }
+
+    /// Answers what was asked for; false if nothing was, or it cannot be had.
+    fn answer(&mut self, library: &mut impl Library) -> bool {
+        let Some(request) = self.wanted.take() else { return false };
+        let found = match &request {
+            Request::Bytes(source, offset, len) => {
+                let (_, mut bytes, _) = self.bytes.take().unwrap_or_else(|| (request.clone(), Vec::new(), false));
+                let Ok(last) = library.read(*source, *offset, *len, &mut bytes) else { return false };
+                self.bytes = Some((request, bytes, last));
+                return true;
+            }
+            Request::Number(number, ending) => library.find_program(Wanted::Number(*number, ending)),
+            Request::File(name) => library.find_program(Wanted::File(name)),
+        };
+        let Ok(found) = found else { return false };
+        self.name = found.map(|source| (source, library.file_name(source)));
+        self.program = Some((request, found));
+        true
+    }
+}
+
+impl<L: Library> Session<L> {
+    /// Moves are planned together with those that follow them: cutting moves run into each other as fast as the axes
+    /// allow, and times are what they would be on the machine. Without it every move begins and ends at rest.
+    pub fn plan_ahead(&mut self) {
+        self.motion.plan_ahead();
+    }
+
+    /// As [`Session::plan_ahead`]; how each cutting move is driven is kept for [`Session::stretches`].
+    pub fn plan_ahead_in_detail(&mut self) {
+        self.motion.plan_ahead();
+        self.motion.keep_stretches();
+    }
+
+    /// How the move handed out last is driven, stretch by stretch; empty for what is no cutting move.
+    pub fn stretches(&self) -> &[motion::Stretch] {
+        self.motion.stretches()
+    }
+
+    /// Something has been touched: what follows is no longer what was rehearsed.
+    pub fn forget_rehearsal(&mut self) {
+        self.rehearsal = None;
+        self.motion.forget_ahead();
+    }
+
+    /// Plans the move that is to be executed now.
+    pub(super) fn plan(&mut self) {
+        if let Some(met) = &mut self.met {
+            met.push_back(if self.motion.is_joined() { move_of(&self.motion) } else { Ahead::Rest });
+            return;
+        }
+        if !self.motion.plans() {
+            return;
+        }
+        if !self.motion.is_joined() {
+            return;
+        }
+        if self.motion.is_surprised() {
+            self.forget_rehearsal();
+        }
+        while self.motion.wants_more() {
+            let ahead = self.rehearse();
+            self.motion.show(&ahead);
+            if ahead == Ahead::Rest && !self.motion.knows_next() {
+                // Nothing more comes of the rehearsal, and yet there is a move: it is driven by itself.
+                return self.forget_rehearsal();
+            }
+        }
+        self.motion.plan();
+    }
+
+    /// In a rehearsal: the axes stand here.
+    pub(super) fn rest(&mut self) {
+        if let Some(met) = &mut self.met {
+            met.push_back(Ahead::Rest);
+        }
+    }
+
+    /// In a rehearsal: what the program asks of the machine is answered when it stands.
+    pub(super) fn rest_to_answer(&mut self, quantity: Quantity) {
+        if !matches!(quantity, Quantity::Inputs) {
+            self.rest();
+        }
+    }
+
+    /// The next that follows.
+    fn rehearse(&mut self) -> Ahead {
+        if self.rehearsal.is_none() {
+            self.rehearsal = Some(Box::new(self.begin_rehearsal()));
+        }
+        let Some(rehearsal) = &mut self.rehearsal else { return Ahead::Rest };
+        loop {
+            if let Some(ahead) = rehearsal.met.as_mut().and_then(VecDeque::pop_front) {
+                return ahead;
+            }
+            match rehearsal.next() {
+                Step::Event(_) => {}
+                Step::Failed(_) => {
+                    if !rehearsal.library.answer(&mut self.library) {
+                        return Ahead::Rest;
+                    }
+                    rehearsal.ended = false;
+                }
+                Step::Stopped | Step::Idle => {
+                    if let Some(ahead) = rehearsal.met.as_mut().and_then(VecDeque::pop_front) {
+                        return ahead;
+                    }
+                    return Ahead::Rest;
+                }
+            }
+        }
+    }
+
+    /// CYCLE START has been pressed: the rehearsal goes on as well, or another one is begun when it is needed.
+    pub(super) fn restart_rehearsal(&mut self) {
+        match &mut self.rehearsal {
+            Some(rehearsal) if rehearsal.stopped && self.stopped && !self.feed_held => rehearsal.start(),
+            _ => self.forget_rehearsal(),
+        }
+    }
+
+    /// A session that stands where this one stands, before the move that is to be executed now.
+    fn begin_rehearsal(&self) -> Session<Lent> {
+        Session {
+            motion: self.motion.unplanned(),
+            machine: self.machine.clone(),
+            library: Lent::default(),
+            rehearsal: None,
+            met: Some(VecDeque::new()),
+            configuration: self.configuration.clone(),
+            switches: self.switches,
+            in_force: self.in_force,
+            switched: self.switched,
+            // The overrides change speeds, not ways.
+            percents: Percents::default(),
+            fixes_override: self.fixes_override,
+            lock: self.lock,
+            unseen: self.unseen,
+            inputs: self.inputs,
+            after_alarm: self.after_alarm,
+            repeats_main: self.repeats_main,
+            rounds: self.rounds,
+            events: Vec::new(),
+            handed_out: 0,
+            codes: self.codes.clone(),
+            bytes: Vec::new(),
+            typed: self.typed.clone(),
+            pulled: true,
+            between_blocks: false,
+            told: None,
+            begun: self.begun,
+            codes_out: self.codes_out,
+            stopped: false,
+            feed_held: false,
+            powered: self.powered,
+            label_skip: self.label_skip,
+            emergency: self.emergency,
+            alarm: None,
+            ended: false,
+            rewound: self.rewound,
+            failed: None,
+            unknown: self.unknown,
+        }
+    }
+}
+
+fn move_of(motion: &motion::Motion) -> Ahead {
+    let shaped = motion.upstream.current();
+    match shaped.shape {
+        shape @ (Shape::Line { .. } | Shape::Arc { .. }) => Ahead::Move(shape),
+        _ => Ahead::Rest,
+    }
+}
