@@ -52,6 +52,7 @@ pub fn run_through(
     repeat: u64,
     mut see: impl FnMut(&mut Session<Texts>, &Event) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
+    let mut events = Vec::with_capacity(32);
     for piece in 0..repeat {
         if piece == 0 {
             session.start()
@@ -59,11 +60,17 @@ pub fn run_through(
             session.start_over()
         }
         loop {
-            match session.next() {
-                Step::Event(event) => see(session, &event)?,
-                Step::Stopped => session.start(),
-                Step::Idle => break,
-                Step::Failed(error) => return Err(Failure::call(error)),
+            match session.next_events(&mut events) {
+                None => {
+                    for event in &events {
+                        see(session, event)?;
+                    }
+                    events.clear();
+                }
+                Some(Step::Event(event)) => see(session, &event)?,
+                Some(Step::Stopped) => session.start(),
+                Some(Step::Idle) => break,
+                Some(Step::Failed(error)) => return Err(Failure::call(error)),
             }
         }
         if session.alarm().is_some() {

@@ -70,3 +70,10 @@ pub struct Address {
     /// What the row rests on.
     pub origin: Origin,
 }
+
+impl Address {
+    /// True if it says something as an axis' word, or in a macro call, and nowhere else.
+    pub const fn is_axis_or_macro(&self) -> bool {
+        matches!(self.kind, AddressKind::LinearAxis | AddressKind::RotaryAxis | AddressKind::MacroOnly)
+    }
+}

@@ -238,6 +238,8 @@ pub struct Control {
     pub(crate) sentences: Vec<Sentences>,
     /// Which alarm each condition raises, in the order of `Condition::ALL`.
     pub(crate) alarm_of_condition: Vec<usize>,
+    /// What each G row means: asked for many times a block.
+    pub(crate) meanings: [Option<Meaning>; 1 + u8::MAX as usize],
     /// Row of each G code by its number.
     pub(crate) g_index: Vec<u8>,
     /// Row of each M code by its number.
@@ -258,8 +260,9 @@ impl Control {
     }
 
     /// What the code in force in a group means.
+    #[inline]
     pub fn in_force(&self, codes: &GroupCodes, group: usize) -> Option<Meaning> {
-        self.g_codes.get(usize::from(codes.0[group])).map(|row| row.meaning)
+        self.meanings[usize::from(codes.0[group])]
     }
 
     /// The row of the first code with this meaning.

@@ -227,6 +227,10 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
     let numbers: Vec<u8> = head.groups.iter().map(|group| group.number).collect();
     let g_codes = files.read("g_codes.toml", |t| codes::g_codes(t, &numbers, &head.options))?;
     let g_index = index_by(g_codes.iter().map(|row| row.code));
+    let mut meanings = [None; 1 + u8::MAX as usize];
+    for (meaning, row) in meanings.iter_mut().zip(&g_codes) {
+        *meaning = Some(row.meaning);
+    }
     let (alarms, alarm_of_condition) = files.read("alarms.toml", alarms::alarms)?;
     let sentences = Document::read("controls/conditions.toml", &files.conditions, alarms::sentences)?;
     let warnings = Document::read("controls/warnings.toml", &files.warnings, warnings::rows)?;
@@ -301,6 +305,7 @@ pub fn load_control(files: &ControlFiles) -> Result<Control, Vec<DataError>> {
         m_index: index_by(m_codes.iter().map(|row| row.code)),
         m_codes,
         g_codes,
+        meanings,
         g_index,
         addresses,
         options: head.options,

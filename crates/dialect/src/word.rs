@@ -129,6 +129,7 @@ impl Control {
 }
 
 /// A number in counts: with a point `unit` each, rounded to the increment; without one `increment` each.
+#[inline(always)]
 fn counts(number: Decimal, increment: i64, unit: i64, range: [f64; 2]) -> Result<i64, Refused> {
     let increments = if number.point {
         // The usual case first: thousandths of a mm or degree. A division would cost more than the rest.
@@ -144,6 +145,24 @@ fn counts(number: Decimal, increment: i64, unit: i64, range: [f64; 2]) -> Result
         number.integer()
     };
     let value = increments.and_then(|value| value.checked_mul(increment));
+    // A count or more within the bounds it matters nothing how they are rounded, and no division is needed.
+    let [low, high] = range.map(|bound| bound * unit as f64);
+    if let Some(value) = value.filter(|&value| value as f64 >= low + 1.0 && value as f64 <= high - 1.0) {
+        return Ok(value);
+    }
+    at_its_bounds(number, value, increment, unit, range)
+}
+
+/// A value that lies at its bounds or beyond them.
+#[cold]
+#[inline(never)]
+fn at_its_bounds(
+    number: Decimal,
+    value: Option<i64>,
+    increment: i64,
+    unit: i64,
+    range: [f64; 2],
+) -> Result<i64, Refused> {
     let in_units = value.map_or(f64::INFINITY, |value| value as f64) / unit as f64;
     match value {
         Some(value) if in_units >= range[0] && in_units <= range[1] => Ok(value),

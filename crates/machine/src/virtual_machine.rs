@@ -25,14 +25,14 @@ pub trait Machine {
     /// The move would leave the travel and is refused as a whole.
     fn check(&self, timed: &Timed<'_>) -> Result<(), Refusal>;
 
-    /// Executes a shape to its end. What happened is handed to `tell` in order.
+    /// Executes a shape to its end. What happened is added to `told` in order.
     ///
     /// # Errors
     /// The move would leave the travel: nothing of it has been executed (or the part up to the border, by policy).
-    fn execute(&mut self, timed: &Timed<'_>, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal>;
+    fn execute(&mut self, timed: &Timed<'_>, told: &mut Vec<Event>) -> Result<(), Refusal>;
 
     /// The block is done: waits for the machine's answers to its codes, unless the program does not want that.
-    fn finish_block(&mut self, place: &Place, waits: bool, tell: &mut dyn FnMut(Event));
+    fn finish_block(&mut self, place: &Place, waits: bool, told: &mut Vec<Event>);
 
     /// Where the axes are, mm and degrees in machine coordinates.
     fn position(&self) -> &Point;
@@ -68,6 +68,8 @@ pub struct VirtualMachine {
     times: CodeTimes,
     /// Codes that are out: their line and when the machine answers.
     pending: [Option<(CodeLine, Seconds)>; PENDING],
+    /// Some code is out.
+    awaits: bool,
     /// Nothing moves before this time.
     hold: Seconds,
     /// Axes whose place is unknown: leaving their travel is not reported.
@@ -92,6 +94,7 @@ impl VirtualMachine {
             stroke_check,
             times: file.times.clone(),
             pending: [None; PENDING],
+            awaits: false,
             hold: Seconds(0.0),
             unknown: AxisSet::NONE,
         }
@@ -144,28 +147,30 @@ impl VirtualMachine {
     }
 
     /// Waits for what a move must wait for.
-    pub fn wait_to_move(&mut self, place: &Place, tell: &mut dyn FnMut(Event)) {
+    pub fn wait_to_move(&mut self, place: &Place, tell: &mut Vec<Event>) {
         self.wait_until(self.hold, place, tell);
     }
 
     /// Drops what was asked of the machine.
     pub fn drop_codes(&mut self) {
         self.pending = [None; PENDING];
+        self.awaits = false;
         self.hold = self.time;
     }
 
-    fn tell(&self, tell: &mut dyn FnMut(Event), place: &Place, kind: EventKind) {
-        tell(Event { time: self.time, place: *place, kind });
+    fn tell(&self, told: &mut Vec<Event>, place: &Place, kind: EventKind) {
+        told.push(Event { time: self.time, place: *place, kind });
     }
 
-    fn send(&mut self, code: CodeOut, place: &Place, tell: &mut dyn FnMut(Event)) {
+    fn send(&mut self, code: CodeOut, place: &Place, told: &mut Vec<Event>) {
         if code.after_motion {
-            self.await_codes(place, tell);
+            self.await_codes(place, told);
         }
-        self.tell(tell, place, EventKind::Code(code));
+        self.tell(told, place, EventKind::Code(code));
         let answer = self.time + self.times.of(code.line, code.code);
         if let Some(slot) = self.pending.iter_mut().find(|slot| slot.is_none()) {
             *slot = Some((code.line, answer));
+            self.awaits = true;
         }
         if code.after_motion {
             self.hold = self.hold.max(answer);
@@ -173,23 +178,26 @@ impl VirtualMachine {
     }
 
     /// Waits until every code that is out has been answered.
-    fn await_codes(&mut self, place: &Place, tell: &mut dyn FnMut(Event)) {
-        loop {
+    fn await_codes(&mut self, place: &Place, told: &mut Vec<Event>) {
+        while self.awaits {
             let next = self.pending.iter_mut().filter(|slot| slot.is_some()).min_by(|a, b| {
                 let when = |slot: &Option<(CodeLine, Seconds)>| slot.map_or(f64::INFINITY, |(_, at)| at.0);
                 when(a).total_cmp(&when(b))
             });
-            let Some((line, at)) = next.and_then(Option::take) else { return };
-            self.wait_until(at, place, tell);
-            tell(Event { time: at, place: *place, kind: EventKind::Finished(line) });
+            let Some((line, at)) = next.and_then(Option::take) else {
+                self.awaits = false;
+                return;
+            };
+            self.wait_until(at, place, told);
+            told.push(Event { time: at, place: *place, kind: EventKind::Finished(line) });
         }
     }
 
-    fn wait_until(&mut self, at: Seconds, place: &Place, tell: &mut dyn FnMut(Event)) {
+    fn wait_until(&mut self, at: Seconds, place: &Place, told: &mut Vec<Event>) {
         if at > self.time {
             let waited = at - self.time;
             self.time = at;
-            self.tell(tell, place, EventKind::Waited(waited));
+            self.tell(told, place, EventKind::Waited(waited));
         }
     }
 
@@ -203,6 +211,9 @@ impl VirtualMachine {
         let alarm = |condition, values, axis: usize| Refusal {
             alarm: Alarm::new(condition, *place, place.block).with(values).on_axis(axis),
         };
+        if self.area.is_none() && self.travel.exit(shape).is_none() {
+            return None;
+        }
         let out = self.travel.meets(shape, rates).filter(|(exit, _)| !self.unknown.has(exit.axis));
         let out = out.map(|(Exit { axis, reaches }, met)| {
             let values = [reaches, self.travel.low[axis], self.travel.high[axis]];
@@ -237,7 +248,7 @@ impl VirtualMachine {
     }
 
     /// Runs a shape that is this part of the timed one.
-    fn run(&mut self, shape: &Shape, timed: &Timed<'_>, part: f64, tell: &mut dyn FnMut(Event)) {
+    fn run(&mut self, shape: &Shape, timed: &Timed<'_>, part: f64, told: &mut Vec<Event>) {
         let place = &timed.shaped.place;
         let Timed { duration, length, feed, pace, .. } = *timed;
         let (duration, length) = (Seconds(duration.0 * part), length * part);
@@ -246,11 +257,15 @@ impl VirtualMachine {
         match shape {
             Shape::Rapid { from, to, .. } => {
                 self.position = *to;
-                tell(Event { time, place, kind: EventKind::Rapid { from: *from, to: *to, duration, length, pace } });
+                told.push(Event {
+                    time,
+                    place,
+                    kind: EventKind::Rapid { from: *from, to: *to, duration, length, pace },
+                });
             }
             Shape::Line { from, to, .. } => {
                 self.position = *to;
-                tell(Event {
+                told.push(Event {
                     time,
                     place,
                     kind: EventKind::Feed { from: *from, to: *to, feed, duration, length, pace },
@@ -258,7 +273,7 @@ impl VirtualMachine {
             }
             Shape::Arc { arc, .. } => {
                 self.position = arc.to;
-                tell(Event { time, place, kind: EventKind::Arc { arc: *arc, feed, duration, length, pace } });
+                told.push(Event { time, place, kind: EventKind::Arc { arc: *arc, feed, duration, length, pace } });
             }
             _ => {}
         }
@@ -281,24 +296,24 @@ impl Machine for VirtualMachine {
         self.refusal(timed).map_or(Ok(()), |(refusal, _)| Err(refusal))
     }
 
-    fn execute(&mut self, timed: &Timed<'_>, tell: &mut dyn FnMut(Event)) -> Result<(), Refusal> {
+    fn execute(&mut self, timed: &Timed<'_>, told: &mut Vec<Event>) -> Result<(), Refusal> {
         let place = &timed.shaped.place;
         match &timed.shaped.shape {
-            Shape::Code(code) => self.send(*code, place, tell),
+            Shape::Code(code) => self.send(*code, place, told),
             Shape::Dwell(dwell) => {
-                self.wait_until(self.hold, place, tell);
+                self.wait_until(self.hold, place, told);
                 self.time += timed.duration;
-                self.tell(tell, place, EventKind::Dwell(*dwell));
+                self.tell(told, place, EventKind::Dwell(*dwell));
             }
             Shape::Set(value) => {
                 if let SetValue::StrokeArea(area) = value {
                     self.area = Some(*area);
                 }
-                self.tell(tell, place, EventKind::Set(*value));
+                self.tell(told, place, EventKind::Set(*value));
             }
-            Shape::Start(groups) => self.tell(tell, place, EventKind::Start(*groups)),
+            Shape::Start(groups) => self.tell(told, place, EventKind::Start(*groups)),
             shape @ (Shape::Rapid { .. } | Shape::Line { .. } | Shape::Arc { .. }) => {
-                self.wait_until(self.hold, place, tell);
+                self.wait_until(self.hold, place, told);
                 let signal = match shape {
                     Shape::Line { from, to, feed } if timed.shaped.until_signal => {
                         let signal = self.until_signal(from, to);
@@ -313,7 +328,7 @@ impl Machine for VirtualMachine {
                 });
                 if let (Some((part, shape)), None) = (&signal, &refused) {
                     if *part > 0.0 {
-                        self.run(shape, timed, *part, tell);
+                        self.run(shape, timed, *part, told);
                     }
                     return Ok(());
                 }
@@ -322,16 +337,16 @@ impl Machine for VirtualMachine {
                         if self.stroke_check == StrokeCheck::AtBorder {
                             let (before, part) = until(shape, &met, self.rates.as_ref());
                             if part > 0.0 {
-                                self.run(&before, timed, part, tell);
+                                self.run(&before, timed, part, told);
                             }
                         }
                         return Err(refusal);
                     }
-                    None => self.run(shape, timed, 1.0, tell),
+                    None => self.run(shape, timed, 1.0, told),
                 }
             }
             Shape::Await(_) => {
-                self.await_codes(place, tell);
+                self.await_codes(place, told);
                 self.hold = self.time;
             }
             Shape::Close(_) | Shape::Alarm(_) => {}
@@ -339,12 +354,12 @@ impl Machine for VirtualMachine {
         Ok(())
     }
 
-    fn finish_block(&mut self, place: &Place, waits: bool, tell: &mut dyn FnMut(Event)) {
+    fn finish_block(&mut self, place: &Place, waits: bool, told: &mut Vec<Event>) {
         if waits {
-            self.await_codes(place, tell);
+            self.await_codes(place, told);
         }
         self.hold = self.time;
-        self.tell(tell, place, EventKind::BlockDone);
+        self.tell(told, place, EventKind::BlockDone);
     }
 
     fn position(&self) -> &Point {

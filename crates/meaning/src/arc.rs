@@ -5,6 +5,10 @@
 
 use base::Condition;
 
+use crate::command::Body;
+use crate::operation::{Act, ArcMove, Feed};
+use crate::setting::to_mm;
+
 /// What the words of an arc say, in counts, along the two axes of its plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ArcWords {
@@ -71,6 +75,32 @@ fn by_center(words: ArcWords, from_start: [f64; 2]) -> Result<Solved, Refused> {
         return Err((Condition::ArcEndOff, [off / 1e6, words.end_limit / 1e6, 0.0]));
     }
     Ok(Solved { center, full_circle: words.start == words.end })
+}
+
+/// An arc and the straight piece from its end to where the block ends.
+#[cold]
+#[inline(never)]
+pub(crate) fn closed_arc(body: &Body, phase: u8) -> Option<Act> {
+    let Body::Arc { to, center, axes, plane, clockwise, foot: Some(foot), feed, .. } = body else { return None };
+    match phase {
+        0 => {
+            let mut end = *to;
+            for (axis, at) in axes.iter().zip(foot) {
+                end[usize::from(*axis)] = *at;
+            }
+            let arc = ArcMove {
+                to: to_mm(&end),
+                plane: *plane,
+                axes: *axes,
+                center: center.map(|counts| counts / 1e6),
+                clockwise: *clockwise,
+                full_circle: false,
+            };
+            Some(Act::Arc { arc, feed: Feed { exact_stop: false, ..*feed } })
+        }
+        1 => Some(Act::Line { to: to_mm(to), feed: *feed }),
+        _ => None,
+    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! 1 block delete · 2 modal G codes, the last of each group · 3 F S T B D H and M · 4 the one-shot code, the cycle or
 //! the movement · 5 what ends the block. A refused block leaves everything as it was: the work is done on copies.
 
-use base::{AXES, Alarm, AxisSet, Condition, UnitSystem};
+use base::{Alarm, AxisSet, Condition, UnitSystem};
 use dialect::{Control, Meaning};
 use syntax::{Block, Cursor, Grouping};
 
@@ -17,7 +17,7 @@ use crate::setting::Setting;
 use crate::state::State;
 use crate::unknown::letter_bit;
 use crate::user_macro::call::Arguments;
-use crate::word::{Refusal, Words};
+use crate::word::{MOST_WORDS, Refusal, Words};
 
 /// Where the program goes on after a block.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -202,15 +202,21 @@ impl<'r> Reading<'r> {
 
 impl Reading<'_> {
     /// Refuses letters that mean nothing on this control and machine, and variables.
-    fn check_letters(&mut self) -> Result<(), Alarm> {
+    #[inline]
+    fn check_letters(&self) -> Result<(), Alarm> {
+        let own_rules = letter_bit(b'G') | letter_bit(b'M');
+        let is_usual =
+            self.words.letters() & !self.setting.usual_letters == 0 && self.words.repeated() & !own_rules == 0;
+        // More words than are taken in by their letters are looked at one by one.
+        if is_usual && self.word_count <= MOST_WORDS { Ok(()) } else { self.check_each_letter() }
+    }
+
+    fn check_each_letter(&self) -> Result<(), Alarm> {
         for word in self.words.block.words.iter().take(self.word_count) {
             if word.letter == b'G' || self.setting.axis_letters & letter_bit(word.letter) != 0 {
                 continue;
             }
-            let known = self.setting.control.address(word.letter).is_some_and(|address| {
-                use dialect::AddressKind::{LinearAxis, MacroOnly, RotaryAxis};
-                !matches!(address.kind, LinearAxis | RotaryAxis | MacroOnly)
-            });
+            let known = self.setting.control.address(word.letter).is_some_and(|address| !address.is_axis_or_macro());
             if !known && !self.is_argument(word) {
                 return Err(self.words.alarm_at(Condition::AddressUnavailable, word));
             }
@@ -346,17 +352,8 @@ impl Reading<'_> {
 
     /// The axes that have a word in this block.
     #[inline]
-    pub fn axes_named(&self) -> Result<AxisSet, Alarm> {
-        let mut named = AxisSet::NONE;
-        if !self.words.has_any(self.setting.axis_letters) {
-            return Ok(named);
-        }
-        for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
-            if self.words.has(facts.letter) && self.not_axes & letter_bit(facts.letter) == 0 {
-                named.add(axis);
-            }
-        }
-        Ok(named)
+    pub fn axes_named(&self) -> AxisSet {
+        self.setting.axes_of(self.words.letters() & !self.not_axes)
     }
 
     /// An axis' word in counts, and whether it was written with a minus sign.
@@ -388,16 +385,17 @@ impl Reading<'_> {
         use Meaning::{Dwell, LocalCoordinates, SetCoordinates, WriteData};
         let leads_nowhere = matches!(self.one_shot, Some((Dwell | WriteData | SetCoordinates | LocalCoordinates, _)));
         let places = !self.words_taken && !leads_nowhere;
-        let mut absolute = AxisSet::NONE;
-        for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(AXES) {
-            let word = self.words.word(facts.letter);
-            self.command.axis_words[axis] = word.map_or_else(Default::default, |word| word.extent);
-            if word.is_some() && self.absolute && places {
-                absolute.add(axis);
+        let words = self.words.block.words.get(..self.word_count).unwrap_or_default();
+        let mut written = AxisSet::NONE;
+        for word in words.iter().take(MOST_WORDS) {
+            if let Some(axis) = self.setting.axis_of(word.letter) {
+                self.command.axis_words[axis] = word.extent;
+                written.add(axis);
             }
         }
+        self.command.written = written;
+        let absolute = if self.absolute && places { written } else { AxisSet::NONE };
         self.command.absolute = absolute;
-        let words = self.words.block.words.get(..self.word_count).unwrap_or_default();
         self.command.wording.take(words, self.word_values);
         if !self.next.unknown.is_nothing() {
             self.learn(absolute);
@@ -412,7 +410,7 @@ impl Reading<'_> {
         unknown.words &= !self.words.letters();
         if let Some((Meaning::SetCoordinates, _)) = self.one_shot {
             // An origin set from an unknown place is unknown; one set from a known place is known again.
-            let named = self.axes_named().unwrap_or_default();
+            let named = self.axes_named();
             unknown.origins = unknown.origins.without(named).or(named.and(unknown.axes));
             unknown.memory |= self.control().functions.work.shifts_all && !named.and(unknown.axes).is_empty();
             unknown.groups &= !(1 << roles.work);

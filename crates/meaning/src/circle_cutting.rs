@@ -64,7 +64,7 @@ impl Reading<'_> {
         let [Some(x), Some(y)] = [b'X', b'Y'].map(|letter| self.setting.facts.axis(letter)) else {
             return Err(self.one_shot_alarm(Condition::AddressUnavailable));
         };
-        if let Some(axis) = self.axes_named()?.iter().next() {
+        if let Some(axis) = self.axes_named().iter().next() {
             let letter = self.setting.facts.axes.get(axis).map_or(0, |facts| facts.letter);
             return Err(self.words.alarm(Condition::AddressUnavailable, letter));
         }

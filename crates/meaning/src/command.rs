@@ -157,7 +157,8 @@ pub struct Command {
     pub(crate) offset: Option<Offset>,
     /// Axes along which the block goes to its own place, whatever the tool's offset was.
     pub(crate) drops: AxisSet,
-    /// Where each axis' word stands in the block.
+    /// The axes that have a word in the block, and where it stands.
+    pub(crate) written: AxisSet,
     pub(crate) axis_words: [Extent; AXES],
     /// Axes written absolutely.
     pub absolute: AxisSet,
@@ -257,7 +258,7 @@ impl Command {
     /// The span of an axis' word, or of the whole block if it has none.
     pub fn axis_span(&self, axis: usize) -> base::Span {
         match self.axis_words.get(axis) {
-            Some(extent) if extent.len > 0 => extent.span(self.place.block.start),
+            Some(extent) if self.written.has(axis) => extent.span(self.place.block.start),
             _ => self.place.block,
         }
     }

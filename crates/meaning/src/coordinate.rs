@@ -96,7 +96,7 @@ impl Reading<'_> {
         }
         let control = self.control();
         let all_systems = self.setting.fitting.policies.g92_system == dialect::G92System::All;
-        let axes = self.axes_named()?;
+        let axes = self.axes_named();
         if axes.is_empty() {
             return Ok(());
         }
@@ -137,7 +137,7 @@ impl Reading<'_> {
     /// G92 where it shifts every system: the present place gets the given coordinates, the local origin of the named
     /// axes is gone. Without words the shift is taken back on all axes.
     fn shift_systems(&mut self) -> Result<(), Alarm> {
-        let mut axes = self.axes_named()?;
+        let mut axes = self.axes_named();
         for axis in axes.iter() {
             self.length_axis_placed(axis);
             let (value, _) = self.axis_word(axis)?;

@@ -96,7 +96,7 @@ impl Reading<'_> {
     fn write_work_origin(&mut self, number: u32) -> Result<(), Alarm> {
         // Number 0 is the origin that counts in every system.
         let system = (number as usize).checked_sub(1);
-        let axes = self.axes_named()?;
+        let axes = self.axes_named();
         if axes.is_empty() {
             return Err(self.one_shot_alarm(Condition::DataValueMissing));
         }

@@ -1,7 +1,7 @@
 //! What tool radius compensation is told of a block: how the tool runs beside the path, and the block's own way in the
 //! plane, in counts, so that directions are exact however far from zero the way lies.
 
-use base::Alarm;
+use base::{AXES, Alarm};
 use dialect::{CornerMode, Meaning};
 
 use crate::block::Reading;
@@ -66,7 +66,7 @@ impl Command {
     /// Writes the way of the block in a plane to `way`; false if it has none. `part` 1 is the straight piece behind an
     /// arc that has one.
     pub fn element(&self, plane: [u8; 2], part: u8, way: &mut Element) -> bool {
-        let at = |point: &base::Point| plane.map(|axis| point.get(usize::from(axis)).copied().unwrap_or(0.0));
+        let at = |point: &base::Point| plane.map(|axis| point[usize::from(axis) % AXES]);
         way.from = at(&self.from);
         way.turn = None;
         match (&self.body, part) {

@@ -3,6 +3,7 @@
 use base::{AXES, AxisSet, Point};
 use dialect::M01OffOutput;
 
+use crate::arc::closed_arc;
 use crate::centring::Centring;
 use crate::command::{Body, Command, Finish, TipMove};
 use crate::cycle::{Cursor, Holes, Spindle, Step, begins_at_r, next_step};
@@ -65,10 +66,13 @@ impl Expansion {
     pub fn begin(&mut self, command: &Command) {
         self.part = Part::CodesBefore;
         (self.index, self.phase, self.hole) = (0, 0, 0);
-        self.cursor = Cursor::default();
-        (self.position, self.target) = (command.from, command.from);
-        (self.hits, self.start) = ([0.0; 2], 0.0);
-        self.missed = false;
+        // A single move asks for none of the rest.
+        if !matches!(command.body, Body::Line { .. } | Body::Rapid { .. }) {
+            self.cursor = Cursor::default();
+            (self.position, self.target) = (command.from, command.from);
+            (self.hits, self.start) = ([0.0; 2], 0.0);
+            self.missed = false;
+        }
     }
 
     /// The command is done with.
@@ -108,42 +112,9 @@ impl Expansion {
     pub fn next(&mut self, command: &Command, setting: &Setting, out: &mut Operation) -> bool {
         out.stop_point = false;
         out.until_signal = false;
-        loop {
-            match self.part {
-                Part::CodesBefore => match self.next_code(command, false, setting) {
-                    Some(code) => {
-                        out.act = Act::Code(code);
-                        break;
-                    }
-                    None => self.part = Part::Body,
-                },
-                Part::Body => {
-                    if self.next_move(command, out) {
-                        // There is no second piece of it.
-                        (self.part, self.index) = (Part::CodesAfter, 0);
-                        break;
-                    }
-                    if let Some(act) = self.next_piece(command, setting, out) {
-                        out.act = act;
-                        break;
-                    }
-                    self.part = Part::CodesAfter;
-                    self.index = 0;
-                }
-                Part::CodesAfter => match self.next_code(command, true, setting) {
-                    Some(code) => {
-                        out.act = Act::Code(code);
-                        break;
-                    }
-                    None => self.part = Part::Close,
-                },
-                Part::Close => {
-                    self.part = Part::Done;
-                    out.act = Act::Close(close(command.finish, setting.switches.optional_stop));
-                    break;
-                }
-                Part::Idle | Part::Done => return false,
-            }
+        out.closes = false;
+        if !self.next_act(command, setting, out) {
+            return false;
         }
         out.block = command.block;
         out.place = command.place;
@@ -151,6 +122,43 @@ impl Expansion {
         out.stroke_check = command.stroke_check;
         out.from_unknown = command.from_unknown;
         true
+    }
+
+    /// Writes what happens next; false when the block is done.
+    fn next_act(&mut self, command: &Command, setting: &Setting, out: &mut Operation) -> bool {
+        if self.part == Part::CodesBefore {
+            if let Some(code) = self.next_code(command, false, setting) {
+                out.act = Act::Code(code);
+                return true;
+            }
+            self.part = Part::Body;
+        }
+        if self.part == Part::Body {
+            if self.next_move(command, out) {
+                // There is no second piece of it, and mostly nothing behind it.
+                out.closes = command.code_count == 0 && command.finish == Finish::Next;
+                (self.part, self.index) = (if out.closes { Part::Done } else { Part::CodesAfter }, 0);
+                return true;
+            }
+            if let Some(act) = self.next_piece(command, setting, out) {
+                out.act = act;
+                return true;
+            }
+            (self.part, self.index) = (Part::CodesAfter, 0);
+        }
+        if self.part == Part::CodesAfter {
+            if let Some(code) = self.next_code(command, true, setting) {
+                out.act = Act::Code(code);
+                return true;
+            }
+            self.part = Part::Close;
+        }
+        if self.part == Part::Close {
+            self.part = Part::Done;
+            out.act = Act::Close(close(command.finish, setting.switches.optional_stop));
+            return true;
+        }
+        false
     }
 
     fn next_code(&mut self, command: &Command, after: bool, setting: &Setting) -> Option<CodeOut> {
@@ -181,6 +189,8 @@ impl Expansion {
         true
     }
 
+    /// On its own: most blocks are single moves, and an act handed on by value is large.
+    #[inline(never)]
     fn next_piece(&mut self, command: &Command, setting: &Setting, out: &mut Operation) -> Option<Act> {
         match &command.body {
             Body::Holes(holes) => return self.next_in_hole(holes, setting, &mut out.stop_point),
@@ -386,32 +396,6 @@ impl Expansion {
 #[inline(never)]
 fn cut(act: &mut Act, to: &Point, feed: &Feed) {
     *act = Act::Line { to: to_mm(to), feed: *feed };
-}
-
-/// An arc and the straight piece from its end to where the block ends.
-#[cold]
-#[inline(never)]
-fn closed_arc(body: &Body, phase: u8) -> Option<Act> {
-    let Body::Arc { to, center, axes, plane, clockwise, foot: Some(foot), feed, .. } = body else { return None };
-    match phase {
-        0 => {
-            let mut end = *to;
-            for (axis, at) in axes.iter().zip(foot) {
-                end[usize::from(*axis)] = *at;
-            }
-            let arc = ArcMove {
-                to: to_mm(&end),
-                plane: *plane,
-                axes: *axes,
-                center: center.map(|counts| counts / 1e6),
-                clockwise: *clockwise,
-                full_circle: false,
-            };
-            Some(Act::Arc { arc, feed: Feed { exact_stop: false, ..*feed } })
-        }
-        1 => Some(Act::Line { to: to_mm(to), feed: *feed }),
-        _ => None,
-    }
 }
 
 fn spindle_code(spindle: Spindle, setting: &Setting) -> Act {

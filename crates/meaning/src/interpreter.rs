@@ -70,6 +70,8 @@ impl Interpreter {
             | if facts.axis(b'B').is_none() { letter_bit(b'B') } else { 0 };
         let length_axis = facts.axis(crate::coordinate::LENGTH_AXIS);
         let transform_groups = crate::setting::transform_groups(&control);
+        let axis_of_letter = crate::setting::axis_of_letter(&facts);
+        let usual_letters = crate::setting::usual_letters(&control, axis_letters);
         let setting = Setting {
             control,
             fitting,
@@ -78,6 +80,8 @@ impl Interpreter {
             switches: Switches::default(),
             length_axis,
             axis_letters,
+            axis_of_letter,
+            usual_letters,
             code_letters,
             transform_groups,
             record: None,

@@ -13,7 +13,7 @@ use crate::operation::SetValue;
 impl Reading<'_> {
     /// G52.
     pub fn local_coordinates(&mut self) -> Result<(), Alarm> {
-        let axes = self.axes_named()?;
+        let axes = self.axes_named();
         for axis in axes.iter() {
             let (value, _) = self.axis_word(axis)?;
             self.next.common_shift[axis] += value - self.next.local[axis];

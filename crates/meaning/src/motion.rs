@@ -64,7 +64,7 @@ impl Reading<'_> {
 
     /// G53: one block in machine coordinates, offsets suspended; in incremental mode its words are without effect.
     pub fn machine_coordinates(&mut self) -> Result<(), Alarm> {
-        let axes = self.axes_named()?;
+        let axes = self.axes_named();
         if !self.absolute || axes.is_empty() {
             return Ok(());
         }
@@ -125,14 +125,14 @@ impl Reading<'_> {
         let letters = plane.centre_letters();
         let has_center = self.words.has(letters[0]) || self.words.has(letters[1]);
         let has_radius = self.words.has(b'R');
-        if !has_center && !has_radius && self.axes_named()?.is_empty() && !self.words.has(b'H') {
+        if !has_center && !has_radius && self.axes_named().is_empty() && !self.words.has(b'H') {
             return Ok(());
         }
         let axes = plane.letters().map(|letter| self.arc_axis(letter));
         // An offset that waits for its axis disturbs no arc beside it.
         let takes_up = self.setting.fitting.policies.length_without_z == LengthWithoutZ::AtOnce
             || axes.contains(&self.setting.length_axis);
-        if self.length_change != 0.0 && takes_up && (has_center || has_radius || !self.axes_named()?.is_empty()) {
+        if self.length_change != 0.0 && takes_up && (has_center || has_radius || !self.axes_named().is_empty()) {
             return Err(self.words.alarm(Condition::LengthOffsetWithArc, b'H'));
         }
         let [Some(u), Some(v)] = axes else { return Err(self.motion_alarm(Condition::AddressUnavailable)) };

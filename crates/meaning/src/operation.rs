@@ -302,6 +302,8 @@ pub struct Operation {
     pub from_unknown: bool,
     /// With the single-block switch on the control stops after it, though the block goes on.
     pub stop_point: bool,
+    /// The block is done with it, and the next one follows: as if [`Close::Next`] came behind it.
+    pub closes: bool,
 }
 
 impl Default for Operation {
@@ -316,6 +318,7 @@ impl Default for Operation {
             stroke_check: false,
             from_unknown: false,
             stop_point: false,
+            closes: false,
         }
     }
 }

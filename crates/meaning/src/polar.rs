@@ -88,7 +88,7 @@ impl Reading<'_> {
             // One after the other in a row, or all in one place; the caller's steps say so.
             return Ok(None);
         }
-        let others = self.axes_named()?.without(AxisSet::only(u)).without(AxisSet::only(v));
+        let others = self.axes_named().without(AxisSet::only(u)).without(AxisSet::only(v));
         let drilling = self.setting.length_axis.map_or(AxisSet::NONE, AxisSet::only);
         if let Some(axis) = others.without(drilling).iter().next() {
             return Err(self.axis_alarm(Condition::StateForbids, axis).with([

@@ -357,6 +357,7 @@ impl Reader {
         command.write = None;
         command.finish = Finish::Next;
         command.stops_reading = false;
+        command.written = AxisSet::NONE;
         command.absolute = AxisSet::NONE;
         command.returned = AxisSet::NONE;
         command.offset = None;
@@ -435,6 +436,7 @@ pub(crate) fn empty_command(state: &State) -> Command {
         side: Side::Off,
         offset: None,
         drops: AxisSet::NONE,
+        written: AxisSet::NONE,
         axis_words: [syntax::Extent::default(); AXES],
         absolute: AxisSet::NONE,
         returned: AxisSet::NONE,

@@ -103,7 +103,7 @@ impl Reading<'_> {
 
     /// The axes that a code of the reference points names; none is refused where the control wants one.
     fn reference_axes(&self) -> Result<AxisSet, Alarm> {
-        let axes = self.axes_named()?;
+        let axes = self.axes_named();
         if axes.is_empty() && self.control().functions.reference.wants_axis {
             return Err(self.one_shot_alarm(Condition::AxisWordMissing));
         }

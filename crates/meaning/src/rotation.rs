@@ -82,7 +82,7 @@ impl Reading<'_> {
             return Err(self.group_alarm(Condition::AddressUnavailable, control.roles.rotation));
         };
         let plane = AxisSet::only(u).or(AxisSet::only(v));
-        if let Some(axis) = self.axes_named()?.without(plane).iter().next() {
+        if let Some(axis) = self.axes_named().without(plane).iter().next() {
             return Err(self.axis_alarm(Condition::AxisWordsClaimedTwice, axis));
         }
         let center = [self.centre_of(u, true, &here)?, self.centre_of(v, true, &here)?];

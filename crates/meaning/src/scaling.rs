@@ -71,7 +71,7 @@ impl Reading<'_> {
             self.next.transform.factor[axis] = ratio;
         }
         if rule.axes == ScaledAxes::Xyz
-            && let Some(axis) = self.axes_named()?.without(scaled).iter().next()
+            && let Some(axis) = self.axes_named().without(scaled).iter().next()
         {
             return Err(self.axis_alarm(Condition::AxisWordsClaimedTwice, axis));
         }

@@ -91,7 +91,7 @@ impl Reading<'_> {
     /// Writes to `to` every named axis' target, and the length axis moved by a changed offset if it has no word of its
     /// own; returns the axes that move.
     pub fn targets(&mut self, to: &mut Point) -> Result<AxisSet, Alarm> {
-        let named = self.axes_named()?;
+        let named = self.axes_named();
         let mut moved = self.targets_of(named, to)?;
         let at_once = self.setting.fitting.policies.length_without_z == LengthWithoutZ::AtOnce;
         let changes = self.words.has(b'H') || self.groups_written & (1 << self.control().roles.length) != 0;

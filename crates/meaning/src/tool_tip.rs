@@ -79,7 +79,7 @@ impl Reading<'_> {
         }
         let transforms = self.groups_written & self.setting.transform_groups & !(1 << roles.plane) != 0;
         let free = match self.one_shot.map(|(code, _)| code) {
-            None | Some(Meaning::ExactStop) => !transforms && (straight || self.axes_named()?.is_empty()),
+            None | Some(Meaning::ExactStop) => !transforms && (straight || self.axes_named().is_empty()),
             Some(code) => matches!(
                 code,
                 Meaning::Dwell

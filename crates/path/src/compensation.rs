@@ -12,7 +12,6 @@ mod edge;
 mod gouge;
 mod interference;
 mod intersection;
-mod vector;
 
 use std::f64::consts::TAU;
 
@@ -26,7 +25,8 @@ use gouge::{Cut, Neighbours, cut};
 pub use interference::BACKWARDS_MM;
 pub(crate) use interference::Fault;
 use interference::{judge, judge_room};
-pub(crate) use vector::{NONE, Vector, add, angle, cross, dot, length, less, times};
+
+use crate::plane::{NONE, Vector};
 
 /// An element with the offset of its block.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]

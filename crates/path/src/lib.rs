@@ -5,16 +5,17 @@
 
 mod arc;
 mod chain;
-mod clearance;
 mod compensation;
+mod curve;
 mod offsetting;
 mod pieces;
+pub mod plane;
 mod shape;
 mod stage;
 
 pub use arc::Arc;
 pub use chain::{ChainRules, Link, run_chain};
-pub use clearance::Curve;
 pub use compensation::{BACKWARDS_MM, Corner, TANGENT_MM};
+pub use curve::{Curve, Extent, Turn};
 pub use shape::{Part, Programmed, RunBeside, Shape, Shaped};
 pub use stage::Path;

@@ -4,10 +4,9 @@
 use base::{Alarm, Condition, Point};
 use meaning::{Act, Barrier, Command, Element, Interpreter, Offset};
 
-use crate::compensation::{
-    Beside, Compensation, Corner, Fault, Join, NONE, Next, NextKind, Plan, Rules, Vector, Which,
-};
+use crate::compensation::{Beside, Compensation, Corner, Fault, Join, Next, NextKind, Plan, Rules, Which};
 use crate::pieces::{Carried, Pieces};
+use crate::plane::{NONE, Vector};
 use crate::shape::{Part, RunBeside, Shaped};
 
 /// Blocks without a way in the plane that the look ahead passes over; more of them make the tool stop.
@@ -53,6 +52,7 @@ pub(crate) struct Offsetting {
 struct Way {
     /// Its shape, or why there is none.
     next: Next,
+    element: Element,
     at: At,
     /// Its end, if that has been made with the way behind it.
     end: Join,
@@ -111,8 +111,10 @@ impl Offsetting {
             self.compensation.drop_on(axes.map(|axis| command.drops_on(axis)));
             return Ok(Taken::AsItIs);
         }
+        let (now, ..) = self.three();
+        let is_known = now.is_ended && (now.at.block, now.at.part) == (block, part) && offset.is_some();
         let mut element = Element::default();
-        if !command.element(axes, part, &mut element) {
+        if !is_known && !command.element(axes, part, &mut element) {
             return Ok(Taken::AsItIs);
         }
         let Some(offset) = offset else {
@@ -132,7 +134,6 @@ impl Offsetting {
             return Ok(Taken::Refused);
         };
         let (now, next, after) = self.three();
-        let is_known = now.is_ended && (now.at.block, now.at.part) == (block, part);
         if is_known {
             // Its block has come to the front meanwhile.
             next.at.index = next.at.index.saturating_sub(now.at.index);
@@ -143,7 +144,7 @@ impl Offsetting {
             if !now.next.beside.edge.take(&element) {
                 return Ok(Taken::AsItIs);
             }
-            now.next.beside.offset = offset;
+            (now.element, now.next.beside.offset) = (element, offset);
             look(upstream, &now.at, axes, next)?;
         }
         after.next.kind = NextKind::Unseen;
@@ -151,7 +152,7 @@ impl Offsetting {
             look(upstream, &next.at, axes, after)?;
         }
         self.part += 1;
-        match self.run(upstream, &element, position, shaped) {
+        match self.run(upstream, position, shaped) {
             Ok(true) => Ok(Taken::Piece),
             Ok(false) => Ok(Taken::Nothing),
             Err((at, fault)) => {
@@ -182,13 +183,7 @@ impl Offsetting {
     ///
     /// # Errors
     /// The place in the buffer of the way that is at fault.
-    fn run(
-        &mut self,
-        upstream: &Interpreter,
-        element: &Element,
-        position: &mut Point,
-        shaped: &mut Shaped,
-    ) -> Result<bool, (At, Fault)> {
+    fn run(&mut self, upstream: &Interpreter, position: &mut Point, shaped: &mut Shaped) -> Result<bool, (At, Fault)> {
         let Offsetting { compensation, ways: [a, b, c], now: turn, plan, pieces, .. } = self;
         let (now, next, after) = in_turn(*turn, (a, b, c));
         let policies = &upstream.fitting().policies;
@@ -216,6 +211,7 @@ impl Offsetting {
         compensation.take(way, plan, &now.end, &next.next);
         let from = *position;
         let Beside { edge, offset } = way;
+        let element = &now.element;
         let carried = Carried { element, edge, offset, plan, end: &now.end, from: &from, certain };
         let has_length = pieces.begin(&carried, upstream.current(), position, shaped);
         // The next one's turn.
@@ -252,9 +248,8 @@ fn in_turn<T>(turn: usize, (a, b, c): (T, T, T)) -> (T, T, T) {
 
 /// Finds what follows a way in the buffer.
 fn look(upstream: &mut Interpreter, way: &At, axes: [u8; 2], found: &mut Way) -> Result<(), Barrier> {
-    let Way { next, at, .. } = found;
+    let Way { next, element, at, .. } = found;
     let mut still = 0;
-    let mut element = Element::default();
     *at = *way;
     next.kind = NextKind::Unseen;
     loop {
@@ -268,7 +263,7 @@ fn look(upstream: &mut Interpreter, way: &At, axes: [u8; 2], found: &mut Way) ->
             next.kind = NextKind::Ends;
             return Ok(());
         }
-        if command.element(axes, at.part, &mut element) && next.beside.edge.take(&element) {
+        if command.element(axes, at.part, element) && next.beside.edge.take(element) {
             next.kind = NextKind::Ends;
             if let Some(offset) = command.offset() {
                 (next.kind, next.beside.offset) = (NextKind::Element, offset);

@@ -1,11 +1,12 @@
 //! A plan of compensation as moves, one at a time: round the corner at the start, beside the element, round the corner
 //! at its end.
 
-use base::Point;
+use base::{AXES, Point};
 use meaning::{Act, Element, Feed, Offset, Operation, RapidKind};
 
 use crate::arc::Arc;
-use crate::compensation::{Corner, Edge, Join, Plan, Vector, less, sweep_round};
+use crate::compensation::{Corner, Edge, Join, Plan, sweep_round};
+use crate::plane::{Vector, in_plane, less};
 use crate::shape::{COUNTS, Part, RunBeside, Shape, Shaped};
 
 /// A piece shorter than this, mm, has no length: rounding made it.
@@ -134,6 +135,7 @@ impl Carried<'_> {
         shaped.block = operation.block;
         shaped.place = operation.place;
         shaped.stop_point = operation.stop_point && last;
+        shaped.closes = operation.closes && last;
         shaped.until_signal = false;
         shaped.stroke_check = operation.stroke_check;
         shaped.certain = self.certain;
@@ -262,16 +264,9 @@ fn shape(operation: &Operation, arc: Option<Arc>, from: Point, to: Point, last: 
 fn placed(point: &Point, axes: [u8; 2], programmed: Vector, vector: Vector) -> Point {
     let mut placed = *point;
     for (index, axis) in axes.iter().enumerate() {
-        if let Some(place) = placed.get_mut(usize::from(*axis)) {
-            *place = programmed[index] / COUNTS + vector[index];
-        }
+        placed[usize::from(*axis) % AXES] = programmed[index] / COUNTS + vector[index];
     }
     placed
-}
-
-/// A point's axes of the plane.
-fn in_plane(point: &Point, axes: [u8; 2]) -> Vector {
-    axes.map(|axis| point.get(usize::from(axis)).copied().unwrap_or(0.0))
 }
 
 /// A point with its axes of the plane left out.

@@ -93,6 +93,8 @@ pub struct Shaped {
     pub shape: Shape,
     /// A stop point of the single-block switch inside the block.
     pub stop_point: bool,
+    /// The block is done with it, and the next one follows.
+    pub closes: bool,
     /// The move ends where the skip signal comes.
     pub until_signal: bool,
     /// The second stored stroke area is checked.
@@ -205,6 +207,7 @@ impl Default for Shaped {
             place: Place::default(),
             shape,
             stop_point: false,
+            closes: false,
             until_signal: false,
             stroke_check: false,
             certain: true,

@@ -1,7 +1,7 @@
 //! The stage: one operation in, its shapes out, moves of no length left out.
 
 use base::Point;
-use meaning::{Act, Answer, Interpreter, Operation, Pull, StaleBarrier};
+use meaning::{Act, Answer, Close, Interpreter, Operation, Pull, StaleBarrier};
 
 use crate::arc::Arc;
 use crate::offsetting::{Offsetting, Taken};
@@ -16,6 +16,8 @@ pub struct Path {
     offsetting: Offsetting,
     /// The operation pulled last is not worked off: a question had to be answered first.
     held: bool,
+    /// The operation pulled last closes its block, and no shape has done so yet.
+    open: bool,
     /// The shape handed out last.
     shaped: Shaped,
 }
@@ -23,7 +25,14 @@ pub struct Path {
 impl Path {
     /// The stage behind an interpreter, its axes standing at `position` (mm, degrees).
     pub fn new(upstream: Interpreter, position: Point) -> Path {
-        Path { upstream, position, offsetting: Offsetting::default(), held: false, shaped: Shaped::default() }
+        Path {
+            upstream,
+            position,
+            offsetting: Offsetting::default(),
+            held: false,
+            open: false,
+            shaped: Shaped::default(),
+        }
     }
 
     /// The axes stand here, whatever was under way (mm, degrees).
@@ -31,6 +40,7 @@ impl Path {
         self.position = *position;
         self.offsetting = Offsetting::default();
         self.held = false;
+        self.open = false;
     }
 
     /// Answers the interpreter's open barrier.
@@ -48,9 +58,14 @@ impl Path {
     /// The next shape. It stays as it is until the next call.
     #[expect(clippy::should_implement_trait, reason = "a pull has barriers, which an iterator does not")]
     pub fn next(&mut self) -> Pull<&Shaped> {
-        let Path { upstream, position, offsetting, held, shaped } = self;
+        let Path { upstream, position, offsetting, held, open, shaped } = self;
         loop {
             if offsetting.next_piece(upstream, position, shaped) {
+                *open &= !shaped.closes;
+                return Pull::Item(shaped);
+            }
+            if std::mem::take(open) {
+                close(upstream.current(), offsetting, shaped);
                 return Pull::Item(shaped);
             }
             if !std::mem::take(held) {
@@ -63,8 +78,14 @@ impl Path {
             let mut taken = Taken::AsItIs;
             if upstream.current().compensated || offsetting.is_on() {
                 match offsetting.take(upstream, position, shaped) {
-                    Ok(Taken::Piece) => return Pull::Item(shaped),
-                    Ok(Taken::Nothing) => continue,
+                    Ok(Taken::Piece) => {
+                        *open = upstream.current().closes && !shaped.closes;
+                        return Pull::Item(shaped);
+                    }
+                    Ok(Taken::Nothing) => {
+                        *open = upstream.current().closes;
+                        continue;
+                    }
                     Ok(other) => taken = other,
                     Err(barrier) => {
                         *held = true;
@@ -73,10 +94,11 @@ impl Path {
                 }
             }
             let is_shape = shape(upstream.current(), offsetting, position, shaped);
+            *open = shaped.closes;
             if taken == Taken::Refused
                 && let Some(alarm) = offsetting.take_alarm()
             {
-                shaped.shape = Shape::Alarm(alarm);
+                (shaped.shape, shaped.closes) = (Shape::Alarm(alarm), false);
                 shaped.beside = offsetting.take_beside();
                 return Pull::Item(shaped);
             }
@@ -84,6 +106,7 @@ impl Path {
                 shaped.beside = offsetting.take_beside();
             }
             if is_shape {
+                *open = false;
                 return Pull::Item(shaped);
             }
         }
@@ -143,13 +166,7 @@ fn shape(operation: &Operation, offsetting: &Offsetting, position: &mut Point, s
             from
         }
     };
-    shaped.block = operation.block;
-    shaped.place = operation.place;
-    shaped.stop_point = operation.stop_point;
-    shaped.until_signal = operation.until_signal;
-    shaped.stroke_check = operation.stroke_check;
-    shaped.certain = !offsetting.is_doubtful();
-    shaped.beside = None;
+    finish(operation, offsetting, shaped);
     let moves = match &shaped.shape {
         Shape::Arc { .. } => true,
         Shape::Rapid { .. } | Shape::Line { .. } => from != to,
@@ -157,6 +174,25 @@ fn shape(operation: &Operation, offsetting: &Offsetting, position: &mut Point, s
     };
     *position = to;
     moves || operation.from_unknown
+}
+
+/// Writes what a shape has beside itself.
+fn finish(operation: &Operation, offsetting: &Offsetting, shaped: &mut Shaped) {
+    shaped.block = operation.block;
+    shaped.place = operation.place;
+    shaped.stop_point = operation.stop_point;
+    shaped.closes = operation.closes;
+    shaped.until_signal = operation.until_signal;
+    shaped.stroke_check = operation.stroke_check;
+    shaped.certain = !offsetting.is_doubtful();
+    shaped.beside = None;
+}
+
+/// Closes the block of an operation that does so but left nothing to run at its end.
+#[cold]
+fn close(operation: &Operation, offsetting: &Offsetting, shaped: &mut Shaped) {
+    finish(operation, offsetting, shaped);
+    (shaped.shape, shaped.closes) = (Shape::Close(Close::Next), false);
 }
 
 /// A point moved in the plane of two axes.

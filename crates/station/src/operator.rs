@@ -129,12 +129,15 @@ impl<L: Shelf> Operator<L> {
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<Result<(), String>, LibraryError> {
         if table::changes_what_follows(action) {
-            if self.session.is_moving() {
+            if !self.session.is_moving() {
+                self.session.forget_rehearsal();
+            } else {
                 self.session.stand_soon();
-                self.waiting.push_back(action.clone());
-                return Ok(Ok(()));
+                if !table::acts_at_block_ends(action) {
+                    self.waiting.push_back(action.clone());
+                    return Ok(Ok(()));
+                }
             }
-            self.session.forget_rehearsal();
         }
         let session = &mut self.session;
         match action {

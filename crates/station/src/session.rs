@@ -6,9 +6,8 @@ mod live;
 mod locks;
 mod rehearsal;
 mod states;
+mod telling;
 mod typed;
-
-use std::collections::VecDeque;
 
 use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
 use machine::{Event, EventKind, Machine, VirtualMachine};
@@ -72,6 +71,8 @@ pub struct Session<L> {
     switches: SessionSwitches,
     /// Those that act from block to block, as they were when the block in execution began.
     in_force: SessionSwitches,
+    /// A switch has been turned since.
+    switched: bool,
     percents: Percents,
     /// The program fixes the feed override at 100 %.
     fixes_override: bool,
@@ -83,7 +84,9 @@ pub struct Session<L> {
     repeats_main: bool,
     /// Rounds of a program that goes round for ever, since the operator last let it run.
     pub(super) rounds: u32,
-    events: VecDeque<Event>,
+    events: Vec<Event>,
+    /// So many of them have been handed out.
+    handed_out: usize,
     /// Codes that begin a block, held until it is sure that the block is not refused.
     codes: Vec<Shaped>,
     bytes: Vec<u8>,
@@ -148,6 +151,7 @@ impl<L: Library> Session<L> {
             configuration,
             switches,
             in_force: SessionSwitches::default(),
+            switched: switches != SessionSwitches::default(),
             percents: Percents::default(),
             fixes_override: false,
             lock: AxisLock::default(),
@@ -156,7 +160,8 @@ impl<L: Library> Session<L> {
             after_alarm: AfterAlarm::Stand,
             repeats_main: false,
             rounds: 0,
-            events: VecDeque::with_capacity(32),
+            events: Vec::with_capacity(32),
+            handed_out: 0,
             codes: Vec::with_capacity(16),
             bytes: Vec::new(),
             typed: Typed::default(),
@@ -317,6 +322,7 @@ impl<L: Library> Session<L> {
     /// Why not, in words.
     pub fn set_switch(&mut self, name: &str, number: Option<u8>, on: bool) -> Result<(), String> {
         self.switches.set(name, number, on)?;
+        self.switched = true;
         self.pass_switches();
         Ok(())
     }
@@ -351,11 +357,6 @@ impl<L: Library> Session<L> {
         self.motion.overrides()
     }
 
-    /// What has happened and not been handed out yet, without letting time pass.
-    pub fn next_told(&mut self) -> Option<Event> {
-        self.events.pop_front()
-    }
-
     /// Parameters have been written: what is set from them is set anew.
     pub fn take_parameters(&mut self) {
         self.pass_overrides();
@@ -381,47 +382,13 @@ impl<L: Library> Session<L> {
 
     fn tell(&mut self, place: Place, kind: EventKind) {
         let time = self.time();
-        self.events.push_back(Event { time, place, kind });
-    }
-
-    /// The next thing that happens.
-    #[expect(clippy::should_implement_trait, reason = "it never ends for good: an operator can start again")]
-    pub fn next(&mut self) -> Step {
-        loop {
-            if let Some(event) = self.events.pop_front() {
-                return Step::Event(event);
-            }
-            if let Some(error) = self.failed.take() {
-                self.ended = true;
-                return Step::Failed(error);
-            }
-            if self.stopped {
-                return Step::Stopped;
-            }
-            if self.ended || self.alarm.is_some() || self.goes_round() || self.is_time_up() {
-                return Step::Idle;
-            }
-            if self.under_way.is_some() {
-                if !self.go_on() {
-                    return Step::Idle;
-                }
-                continue;
-            }
-            if self.pull() {
-                self.pulled = self.stands_still() || self.alarm.is_some();
-                if !self.pulled && !(self.live && self.takes_waiting_hold()) {
-                    self.execute();
-                } else if self.events.is_empty() {
-                    return Step::Idle;
-                }
-            }
-        }
+        self.events.push(Event { time, place, kind });
     }
 
     /// The place of a block of which nothing has been executed yet, told once for each; `None` if something else
     /// comes first.
     pub fn block_begins(&mut self) -> Option<Place> {
-        let busy = !self.events.is_empty() || self.under_way.is_some();
+        let busy = !self.has_told_all() || self.under_way.is_some();
         if busy || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
             return None;
         }

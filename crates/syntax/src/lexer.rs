@@ -393,10 +393,12 @@ impl Lexer<'_> {
             block.faults.push(Fault { condition: Condition::BlockTooLong, extent });
         }
         // Blanks at its end do not belong to the block, nor to a comment or fault that reached into them.
-        let words = block.words.iter_mut().map(|word| &mut word.extent);
-        let faults = block.faults.iter_mut().map(|fault| &mut fault.extent);
-        let extents = block.comments.iter_mut().chain(words).chain(faults);
-        extents.for_each(|extent| extent.clip(block.len));
+        if end < at || !block.faults.is_empty() {
+            let words = block.words.iter_mut().map(|word| &mut word.extent);
+            let faults = block.faults.iter_mut().map(|fault| &mut fault.extent);
+            let extents = block.comments.iter_mut().chain(words).chain(faults);
+            extents.for_each(|extent| extent.clip(block.len));
+        }
         let offset = cursor.offset + (at + ending) as u64;
         let ended_line = ending > 0 && text[at + ending - 1] == b'\n';
         block.next = if ended_line {

@@ -6,7 +6,6 @@
 
 mod blocks;
 mod choice;
-mod curve;
 mod finding;
 mod hygiene;
 mod look;

@@ -214,12 +214,16 @@ impl Watch {
             }
             self.doubtful = false;
         }
-        let Some(way) = self.stretch.way(place, ends, beside, interpreter) else { return };
+        let (way, turns) = self.gouge.slot();
+        if !self.stretch.write((way, turns), place, ends, beside, interpreter) {
+            return;
+        }
         let found = &mut self.found;
-        self.corner.look(&way, found);
-        let claimed = self.barrier.step(&way, found) && self.says_barriers;
-        self.gouge.step(&way, claimed, found);
-        if way.leaves {
+        self.corner.look((way, turns), interpreter, found);
+        way.claimed = self.barrier.step((way, turns), found) && self.says_barriers;
+        let leaves = way.leaves;
+        self.gouge.step(interpreter, found);
+        if leaves {
             self.break_off();
         }
     }
@@ -253,7 +257,7 @@ impl Watch {
             || command.finish != Finish::Next
             || command.levels().is_some()
             || self.inherited.is_open()
-            || before.after.displacement != [0.0; AXES];
+            || before.after.displacement.iter().fold(false, |any, &way| any | (way != 0.0));
         if !is_rare {
             return;
         }

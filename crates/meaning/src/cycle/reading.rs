@@ -70,7 +70,7 @@ impl Reading<'_> {
         if count == 0 && self.setting.fitting.policies.cycle_l0_moves == CycleL0Moves::No {
             return Ok(());
         }
-        let named = self.axes_named()?.without(base::AxisSet::only(drilling));
+        let named = self.axes_named().without(base::AxisSet::only(drilling));
         let places = self.row_of_holes(named, count.max(1))?;
         let approach = self.cycle_approach();
         self.holes((count > 0).then_some(cycle), places, approach)
@@ -102,7 +102,7 @@ impl Reading<'_> {
         let count = self.words.integer(control, b'L')?.unwrap_or(0);
         let size = self.words.length(control, b'I', self.units)?.unwrap_or(0.0);
         let angle = self.words.angle(control, b'J')?.unwrap_or(0.0) / 1e6;
-        let mut named = self.axes_named()?;
+        let mut named = self.axes_named();
         if let (Some(drilling), true) = (self.setting.length_axis, cycle.is_some()) {
             named = named.without(base::AxisSet::only(drilling));
         }

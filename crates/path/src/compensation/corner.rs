@@ -2,7 +2,7 @@
 
 use super::edge::Edge;
 use super::intersection::Bend;
-use super::vector::{NONE, Vector, add, angle, cross, dot, left, length, times};
+use crate::plane::{NONE, Vector, add, angle, cross, dot, left, length, times};
 
 /// Feet of the two normals nearer to each other than this, mm, are one: the elements are tangent.
 pub const TANGENT_MM: f64 = 1e-6;

@@ -2,8 +2,8 @@
 
 use meaning::Element;
 
-use super::vector::{Vector, add, angle, cross, dot, left, length, less, times};
 use crate::arc::sweep_between;
+use crate::plane::{Vector, add, angle, cross, dot, left, length, less, times};
 use crate::shape::COUNTS;
 
 /// An element's shape, free of where it lies; mm.

@@ -5,8 +5,8 @@ use super::corner::{Join, sweep_round};
 use super::edge::Edge;
 use std::f64::consts::PI;
 
-use super::vector::{NONE, Vector, add, cross, less, times};
-use crate::clearance::Curve;
+use crate::curve::Curve;
+use crate::plane::{NONE, Vector, add, cross, less, times};
 
 /// Nearer by less than this, mm, is near enough: rounding made it.
 const CUT_MM: f64 = 1e-6;
@@ -26,7 +26,7 @@ pub(crate) fn cut(near: &Neighbours, start: Vector, corner: &Join, s: f64) -> Op
     let Neighbours { before, now, next, after } = *near;
     let bends = |edge: &Edge| edge.is_arc();
     let depth = |edge: &Edge, other: Curve| {
-        let nearest = pieces(now, start, corner, s).map(|piece| piece.distance(&other)).fold(f64::INFINITY, f64::min);
+        let nearest = pieces(now, start, corner, s).map(|piece| piece.approach(&other).0).fold(f64::INFINITY, f64::min);
         Some(s.abs() - nearest).filter(|depth| *depth > CUT_MM + unround(now, s) + unround(edge, s))
     };
     if let Some(next) = next {
@@ -52,7 +52,7 @@ pub(crate) fn cut(near: &Neighbours, start: Vector, corner: &Join, s: f64) -> Op
     if now.sweep.abs() > PI {
         let own = ending(now, NONE, [NONE; 2]);
         let nearest =
-            pieces(now, start, corner, s).skip(1).map(|piece| piece.distance(&own)).fold(f64::INFINITY, f64::min);
+            pieces(now, start, corner, s).skip(1).map(|piece| piece.approach(&own).0).fold(f64::INFINITY, f64::min);
         let depth = s.abs() - nearest;
         if depth > CUT_MM + unround(now, s) {
             return Some((Cut::Now, depth));
@@ -65,11 +65,9 @@ pub(crate) fn cut(near: &Neighbours, start: Vector, corner: &Join, s: f64) -> Op
 /// The path beside an element that ends at zero, and the way round the corner there.
 fn pieces(edge: &Edge, start: Vector, corner: &Join, s: f64) -> impl Iterator<Item = Curve> {
     let round = move |pair: &[Vector]| match pair {
-        [first, second] if corner.round => {
-            Curve::Arc { center: NONE, spoke: *first, sweep: sweep_round(*first, *second, s) }
-        }
-        [first, second] => Curve::Line([*first, *second]),
-        _ => Curve::Line([NONE; 2]),
+        [first, second] if corner.round => Curve::about(NONE, *first, sweep_round(*first, *second, s)),
+        [first, second] => Curve::line(*first, *second),
+        _ => Curve::line(NONE, NONE),
     };
     let own = ending(edge, NONE, [start, corner.first()]);
     std::iter::once(own).chain(corner.places().windows(2).map(round))
@@ -104,16 +102,16 @@ fn way(edge: &Edge) -> Vector {
 /// An element that ends at a point, or the path beside it by two vectors.
 fn ending(edge: &Edge, end: Vector, [first, last]: [Vector; 2]) -> Curve {
     if !edge.is_arc() {
-        return Curve::Line([add(less(end, way(edge)), first), add(end, last)]);
+        return Curve::line(add(less(end, way(edge)), first), add(end, last));
     }
     let sweep = if first == NONE && last == NONE { edge.sweep } else { edge.sweep_beside([first, last]) };
-    Curve::Arc { center: less(end, edge.spoke(1)), spoke: add(edge.spoke(0), first), sweep }
+    Curve::about(less(end, edge.spoke(1)), add(edge.spoke(0), first), sweep)
 }
 
 /// An element that begins at a point.
 fn beginning(edge: &Edge, start: Vector) -> Curve {
     if !edge.is_arc() {
-        return Curve::Line([start, add(start, way(edge))]);
+        return Curve::line(start, add(start, way(edge)));
     }
-    Curve::Arc { center: less(start, edge.spoke(0)), spoke: edge.spoke(0), sweep: edge.sweep }
+    Curve::about(less(start, edge.spoke(0)), edge.spoke(0), edge.sweep)
 }

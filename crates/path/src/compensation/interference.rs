@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use dialect::CompensationRules;
 
 use super::edge::Edge;
-use super::vector::{Vector, dot, length, less};
+use crate::plane::{Vector, dot, length, less};
 
 /// A path that runs backwards by less than this, mm, has no length: rounding made it.
 pub const BACKWARDS_MM: f64 = 1e-6;

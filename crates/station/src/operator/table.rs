@@ -40,6 +40,9 @@ pub(super) fn situation<L: Library>(session: &Session<L>) -> Situation {
     }
 }
 
+/// The switch that stops at block ends.
+const SINGLE_BLOCK: &str = "single-block";
+
 /// Actions that are taken or refused alike.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Kind {
@@ -98,6 +101,11 @@ pub(super) fn changes_what_follows(action: &Action) -> bool {
         Kind::Offset | Kind::Parameter | Kind::Variable | Kind::Load | Kind::Select | Kind::Type => true,
         _ => false,
     }
+}
+
+/// True for SINGLE BLOCK, which is looked at as a block ends and need not wait for that.
+pub(super) fn acts_at_block_ends(action: &Action) -> bool {
+    matches!(action, Action::Switch(name, ..) if name == SINGLE_BLOCK)
 }
 
 /// Taken, or refused for this reason.

@@ -17,7 +17,7 @@ impl<L: Library> Session<L> {
             self.begin_block();
         }
         let shaped = self.motion.upstream.current();
-        let place = shaped.place;
+        let (place, closes) = (shaped.place, shaped.closes);
         match shaped.shape {
             Shape::Alarm(alarm) => return self.raise(alarm),
             Shape::Close(close) => {
@@ -32,9 +32,10 @@ impl<L: Library> Session<L> {
             self.pass_unknown();
         }
         if !self.start_codes() {
-            return;
-        }
-        if !self.prepare_shape() {
+            if closes && self.alarm.is_none() {
+                self.close(Close::Next, place);
+            }
+        } else if !self.prepare_shape() {
             self.perform_shape();
         }
     }
@@ -42,7 +43,7 @@ impl<L: Library> Session<L> {
     /// What has been prepared is executed to its end.
     pub(super) fn perform_shape(&mut self) {
         let shaped = self.motion.upstream.current();
-        let (place, stop_point) = (shaped.place, shaped.stop_point);
+        let (place, stop_point, closes) = (shaped.place, shaped.stop_point, shaped.closes);
         let stop = if let Shape::Await(stop) = shaped.shape { stop } else { None };
         match self.execute_shape() {
             Ok(()) if stop_point && self.stops_at_blocks() => self.stop(place, StopKind::SingleBlock),
@@ -52,6 +53,9 @@ impl<L: Library> Session<L> {
         if let Some(kind) = stop {
             self.stop(place, kind);
         }
+        if closes && self.alarm.is_none() {
+            self.close(Close::Next, place);
+        }
     }
 
     /// The switches that act from block to block are looked at.
@@ -59,7 +63,8 @@ impl<L: Library> Session<L> {
         self.between_blocks = false;
         // #3004 bit 1: the program fixes the feed override at 100 %.
         let fixes = self.interpreter().executing_state().feed_control & 2 != 0;
-        if self.in_force != self.switches || self.fixes_override != fixes {
+        if self.switched || self.fixes_override != fixes {
+            self.switched = false;
             self.in_force = self.switches;
             self.fixes_override = fixes;
             self.pass_locks();
@@ -103,8 +108,7 @@ impl<L: Library> Session<L> {
 
     fn execute_shape(&mut self) -> Result<(), Refusal> {
         let Some(shaped) = self.real_shape() else {
-            let events = &mut self.events;
-            return self.machine.execute(&self.motion.current(), &mut |event| events.push_back(event));
+            return self.machine.execute(&self.motion.current(), &mut self.events);
         };
         // The way back to the reference point is that of the axes, any other takes the time of the counted one.
         let timed = if self.returned().is_empty() { self.motion.current() } else { self.motion.time(&shaped) };
@@ -114,8 +118,7 @@ impl<L: Library> Session<L> {
         };
         let timed = Timed { shaped: &shaped, length, ..timed };
         let before = self.counted_position();
-        let events = &mut self.events;
-        let executed = self.machine.execute(&timed, &mut |event| events.push_back(event));
+        let executed = self.machine.execute(&timed, &mut self.events);
         if executed.is_ok() {
             self.count_move();
         }
@@ -153,12 +156,11 @@ impl<L: Library> Session<L> {
             self.rest();
             self.codes_out = true;
         }
-        let events = &mut self.events;
         for shaped in self.codes.drain(..) {
             let timed =
                 Timed { shaped: &shaped, duration: Seconds(0.0), length: 0.0, feed: 0.0, pace: Pace::default() };
             // A code is no move, so the machine has nothing to refuse.
-            let _ = self.machine.execute(&timed, &mut |event| events.push_back(event));
+            let _ = self.machine.execute(&timed, &mut self.events);
         }
     }
 
@@ -216,8 +218,7 @@ impl<L: Library> Session<L> {
         if std::mem::take(&mut self.codes_out) && waits {
             self.rest();
         }
-        let events = &mut self.events;
-        self.machine.finish_block(&place, waits, &mut |event| events.push_back(event));
+        self.machine.finish_block(&place, waits, &mut self.events);
         match close {
             Close::Stop(kind) => self.stop(place, kind),
             Close::End(kind) => self.end(kind, place),
@@ -227,9 +228,10 @@ impl<L: Library> Session<L> {
         }
     }
 
-    /// SINGLE BLOCK is on, and the program does not keep it from acting (#3003 bit 0).
+    /// SINGLE BLOCK is on, the program does not keep it from acting (#3003 bit 0), and the axes stand: switched on in a
+    /// move, they may not be able to at its end.
     fn stops_at_blocks(&self) -> bool {
-        self.switches.single_block && self.executing_state(|state| state.block_control & 1 == 0)
+        self.switches.single_block && !self.is_moving() && self.executing_state(|state| state.block_control & 1 == 0)
     }
 
     /// What holds in the block being executed.

@@ -94,15 +94,14 @@ impl<L: Library> Session<L> {
             self.motion.plan();
             return false;
         }
-        let events = &mut self.events;
-        self.machine.wait_to_move(&place, &mut |event| events.push_back(event));
+        self.machine.wait_to_move(&place, &mut self.events);
         self.motion.begin();
         self.under_way = Some(UnderWay { elapsed: 0.0 });
         true
     }
 
     /// Lets the move under way go on to its end or the end of the time; false if nothing more comes of it.
-    pub(super) fn go_on(&mut self) -> bool {
+    pub(super) fn go_on_moving(&mut self) -> bool {
         loop {
             let stride = self.machine.time().0 + self.elapsed() + STRIDE_S;
             if self.drive(self.deadline.map_or(stride, |deadline| deadline.0.min(stride))) {
@@ -216,10 +215,9 @@ impl<L: Library> Session<L> {
             shaped.shape = shaped.shape.up_to(&at);
             let timed = motion::Timed { shaped: &shaped, ..self.motion.current() };
             let length = self.motion.time(&shaped).length;
-            let events = &mut self.events;
             let timed = motion::Timed { length, ..timed };
             // What could not be made as a whole was refused before it began.
-            let _ = self.machine.execute(&timed, &mut |event| events.push_back(event));
+            let _ = self.machine.execute(&timed, &mut self.events);
         }
         self.motion.drop_rest();
     }

@@ -100,8 +100,7 @@ impl<L: Library> Session<L> {
             let shape = Shape::Rapid { from, to, kind: RapidKind::Checked };
             let shaped = Shaped { shape, place: *place, ..*self.motion.upstream.current() };
             let timed = self.motion.time(&shaped);
-            let events = &mut self.events;
-            if let Err(refusal) = self.machine.execute(&timed, &mut |event| events.push_back(event)) {
+            if let Err(refusal) = self.machine.execute(&timed, &mut self.events) {
                 self.raise(refusal.alarm);
             }
         }

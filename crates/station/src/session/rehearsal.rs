@@ -204,6 +204,7 @@ impl<L: Library> Session<L> {
             configuration: self.configuration.clone(),
             switches: self.switches,
             in_force: self.in_force,
+            switched: self.switched,
             // The overrides change speeds, not ways.
             percents: Percents::default(),
             fixes_override: self.fixes_override,
@@ -213,7 +214,8 @@ impl<L: Library> Session<L> {
             after_alarm: self.after_alarm,
             repeats_main: self.repeats_main,
             rounds: self.rounds,
-            events: VecDeque::new(),
+            events: Vec::new(),
+            handed_out: 0,
             codes: self.codes.clone(),
             bytes: Vec::new(),
             typed: self.typed.clone(),

@@ -99,8 +99,7 @@ impl<L: Library> Session<L> {
         self.pulled = false;
         self.told = None;
         if begun {
-            let events = &mut self.events;
-            self.machine.finish_block(&place, true, &mut |event| events.push_back(event));
+            self.machine.finish_block(&place, true, &mut self.events);
         }
     }
 

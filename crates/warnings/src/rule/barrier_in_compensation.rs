@@ -10,13 +10,13 @@
 //! move with G41 or G42 and behind the one with G40: the tool is not beside anything there.
 
 use meaning::{Command, EndKind, Finish, Side};
+use path::Curve;
 
 use super::gouge_ahead::LEAST_MM;
-use crate::curve::Curve;
 use crate::finding::{At, Finding, Found};
 use crate::look::{Look, number};
 use crate::rules::Rule;
-use crate::way::Way;
+use crate::way::{Turns, Way};
 
 /// The stop that waits for what comes behind it.
 #[derive(Default)]
@@ -28,13 +28,19 @@ pub(crate) struct BarrierInCompensation {
 
 impl BarrierInCompensation {
     /// A move; true if it is the first one behind a stop.
-    pub fn step(&mut self, way: &Way, found: &mut Found) -> bool {
+    #[inline]
+    pub fn step(&mut self, (way, turns): (&Way, &Turns), found: &mut Found) -> bool {
         self.stands = true;
-        let Some(element) = &way.element else { return false };
+        self.open.is_some() && self.lead_on((way, turns), found)
+    }
+
+    fn lead_on(&mut self, (way, turns): (&Way, &Turns), found: &mut Found) -> bool {
+        let Some(element) = way.element(turns) else { return false };
         let Some(finding) = self.open.take() else { return false };
-        let standing = Curve::line(way.centre.from, way.centre.from);
+        let leading = way.centre(turns);
+        let standing = Curve::line(leading.from, leading.from);
         let depths =
-            [standing, way.centre].map(|tool| way.radius - tool.approach(element).0 - tool.slack() - element.slack());
+            [standing, leading].map(|tool| way.radius - tool.approach(&element).0 - tool.slack() - element.slack());
         found.list.push(cut(finding, depths).beside(way.place, "the next element"));
         true
     }

@@ -10,14 +10,14 @@
 
 use base::Place;
 use dialect::CornerMode;
-use meaning::Corner as Mode;
+use meaning::{Corner as Mode, Interpreter};
 use path::Corner;
+use path::plane::{Vector, cross, dot, length};
 
-use crate::curve::{Vector, cross, dot, length};
 use crate::finding::{At, Finding, Found};
 use crate::look::number;
 use crate::rules::Rule;
-use crate::way::Way;
+use crate::way::{Turns, Way};
 
 /// What has been seen of corners.
 #[derive(Default)]
@@ -38,32 +38,42 @@ impl CornerModeUnset {
         self.open = None;
     }
 
-    pub fn look(&mut self, way: &Way, found: &mut Found) {
-        if self.said {
-            return;
+    #[inline]
+    pub fn look(&mut self, (way, turns): (&Way, &Turns), interpreter: &Interpreter, found: &mut Found) {
+        if !self.said && (self.open.is_some() || way.corner == Corner::Outside) {
+            self.judge((way, turns), interpreter, found);
         }
-        let Some(element) = &way.element else {
+    }
+
+    fn judge(&mut self, (way, turns): (&Way, &Turns), interpreter: &Interpreter, found: &mut Found) {
+        let Some(element) = way.element(turns) else {
             // A block that starts compensation has its corner with the first element, at a place of its own.
             return;
         };
         let [begins, ends] = element.directions();
         if let Some((place, block, direction)) = self.open.take() {
             self.said = true;
-            found.say(Rule::CornerModeUnset, &place, || finding(way, (place, block), direction, begins));
-        } else if way.corner == Corner::Outside && way.interpreter.executing_state().corner == Mode::NotProgrammed {
+            found.say(Rule::CornerModeUnset, &place, || finding(way, interpreter, (place, block), direction, begins));
+        } else if way.corner == Corner::Outside && interpreter.executing_state().corner == Mode::NotProgrammed {
             self.open = Some((way.place, way.block, ends));
         }
     }
 }
 
-fn finding(way: &Way, (place, block): (Place, u64), first: Vector, second: Vector) -> Finding {
+fn finding(
+    way: &Way,
+    interpreter: &Interpreter,
+    (place, block): (Place, u64),
+    first: Vector,
+    second: Vector,
+) -> Finding {
     let cosine = dot(first, second) / (length(first) * length(second));
     // Up to a right angle to where the paths meet; beyond it along each for the radius.
     let reach = if cosine >= 0.0 { (2.0 / (1.0 + cosine)).sqrt() } else { std::f64::consts::SQRT_2 };
     let turn = libm::atan2(cross(first, second), dot(first, second)).to_degrees().abs();
     let reach = number(reach * way.radius);
     let (radius, turn) = (number(way.radius), number(turn));
-    let here = match way.interpreter.fitting().policies.corner_mode {
+    let here = match interpreter.fitting().policies.corner_mode {
         CornerMode::Arc => "an arc",
         CornerMode::Intersection => "the intersection of the paths",
     };

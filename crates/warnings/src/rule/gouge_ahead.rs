@@ -12,16 +12,18 @@
 //! for what lies before the crossing and behind it, which is no contour; for the first element's beginning and the last
 //! one's end beside the moves to and from them. Of cuts one beside the other the deepest is said.
 
+mod chain;
 mod window;
 
 use base::Place;
+use meaning::Interpreter;
 use path::Part;
+use path::plane::{Vector, distance};
 
-use crate::curve::{Vector, distance};
 use crate::finding::{At, Finding, Found};
 use crate::look::number;
 use crate::rules::Rule;
-use crate::way::Way;
+use crate::way::{Turns, Way};
 use window::Window;
 
 /// Elements that are compared with each other if nothing is said about it.
@@ -67,38 +69,48 @@ impl GougeAhead {
         GougeAhead { window: Window::new(look_ahead), open: Vec::new(), letters: ['?'; 2], left: false }
     }
 
-    /// Takes a move. `claimed`: how it cuts into its own element and the last one is said by another rule.
-    pub fn step(&mut self, way: &Way, claimed: bool, found: &mut Found) {
+    /// Where the next move is to be written.
+    #[inline]
+    pub fn slot(&mut self) -> (&mut Way, &mut Turns) {
+        self.window.slot()
+    }
+
+    /// Takes the move that was written.
+    pub fn step(&mut self, interpreter: &Interpreter, found: &mut Found) {
         if !self.window.is_on() {
             return;
         }
+        let (way, _) = self.window.slot();
+        let (level, beside, axes) = (way.level, way.beside, way.axes);
         let starts = way.part == Some(Part::Start);
         let changes_side = way.part.is_some() && way.left != self.left;
-        if starts || changes_side || !way.level {
-            self.end(found);
-        }
-        if !way.level {
-            return;
-        }
-        if changes_side {
+        if changes_side && level {
             self.left = way.left;
         }
-        if self.window.moves() == 0 {
-            let letter = |axis: u8| way.interpreter.facts().axes.get(usize::from(axis)).map(|axis| axis.letter);
-            self.letters = way.axes.map(|axis| letter(axis).map_or('?', char::from));
+        if starts || changes_side || !level {
+            self.end(found);
         }
-        // From one side to the other the tool crosses the contour on purpose.
-        let crosses = changes_side && !starts && !way.beside;
-        let is_closed = match crosses {
-            true => self.window.push(&Way { element: None, part: Some(Part::Start), ..*way }, claimed),
-            false => self.window.push(way, claimed),
-        };
+        if !level {
+            return;
+        }
+        if self.window.moves() == 0 {
+            let letter = |axis: u8| interpreter.facts().axes.get(usize::from(axis)).map(|axis| axis.letter);
+            self.letters = axes.map(|axis| letter(axis).map_or('?', char::from));
+        }
+        if changes_side && !starts && !beside {
+            // From one side to the other the tool crosses the contour on purpose.
+            let (way, _) = self.window.slot();
+            (way.has_element, way.part) = (false, Some(Part::Start));
+        }
+        let is_closed = self.window.push();
         if is_closed {
             let window = &self.window;
             self.open.retain(|gouge| window.counts(&gouge.deepest));
         }
-        let (open, letters) = (&mut self.open, self.letters);
-        self.window.hits(|hit| note(open, hit, letters, found));
+        if self.window.has_to_compare() {
+            let (open, letters) = (&mut self.open, self.letters);
+            self.window.hits(|hit| note(open, hit, letters, found));
+        }
         // What lies so far behind grows no more.
         if let Some(gouge) = self.open.first()
             && gouge.end() + self.window.room() < self.window.moves()

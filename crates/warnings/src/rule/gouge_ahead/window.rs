@@ -1,50 +1,30 @@
 //! The window of moves and elements that are held against each other.
 //!
-//! What need not be compared: as long as the directions of neighbouring elements, from one to another, lie within half a
-//! turn, the centre beside the one is nowhere nearer to the other than the radius. (Take the element among them that
-//! points farthest right: all elements before it lie right of its line, all centres behind it left of its centre's line;
-//! and of the one that points farthest left the other way round.) So only what lies before the last half turn is looked
-//! at, and of that only what lies in boxes that come near enough.
+//! Only what lies before the last half turn ([`Chain`]) is looked at, and of that only what lies in boxes that come near
+//! enough.
 
-use base::Place;
-use path::Part;
+use path::plane::{Vector, distance};
+use path::{Curve, Extent, Part};
 
+use super::chain::Chain;
 use super::{Hit, LEAST_MM};
-use crate::curve::{Curve, Extent, Vector, distance, least, most};
-use crate::way::Way;
+use crate::way::{Turns, Way};
 
 /// Moves in a box together.
 const BOXED: u64 = 8;
-/// Half a turn in the measure of [`direction`], and a bit for rounding.
-const HALF_TURN: f64 = 2.0 + 1e-9;
-/// A turn back by less than this beside half a turn can go either way round.
-const EITHER_WAY: f64 = 2.0 - 1e-6;
-
-/// A move with its element.
-#[derive(Clone, Copy)]
-struct Entry {
-    centre: Curve,
-    element: Option<Curve>,
-    place: Place,
-    block: u64,
-    part: Option<Part>,
-    radius: f64,
-    /// Elements up to here.
-    count: u64,
-    /// It runs beside its own element.
-    beside: bool,
-    /// How it cuts into its own element and the last one is said elsewhere.
-    claimed: bool,
-}
+/// More than rounding makes of a distance, mm.
+const ROUNDING_MM: f64 = 1e-6;
 
 /// The latest moves of a stretch, in rings: by their number, as many as a power of two.
 pub(super) struct Window {
     /// Elements that are looked back.
     depth: u64,
-    entries: Vec<Entry>,
+    entries: Vec<Way>,
+    turns: Vec<Turns>,
+    /// Elements up to each move.
     counts: Vec<u64>,
-    /// The directions in each move, lowest and highest; in those that are summed up, from each to the last such one.
-    angles: Vec<[f64; 2]>,
+    /// From where on nothing need be compared.
+    chain: Chain,
     boxes: Vec<Extent>,
     /// Moves in this stretch, and elements.
     next: u64,
@@ -55,18 +35,14 @@ pub(super) struct Window {
     first_cutter: u64,
     /// The same for the move that comes next.
     next_cutter: u64,
-    /// From here on all directions lie within half a turn; before `summed` they are summed up, behind it they lie between
-    /// these.
-    chain: u64,
-    summed: u64,
-    reach: [f64; 2],
-    /// The direction in which the last move ends: turns counted, and not.
-    last: Option<[f64; 2]>,
     radius: f64,
     /// Where the last element ends.
     corner: Option<Vector>,
     /// Up to which move the latest one is to be compared.
     compared: u64,
+    /// What lies in here is not near to any box before this one.
+    free: Extent,
+    cleared: u64,
 }
 
 impl Window {
@@ -74,8 +50,9 @@ impl Window {
         Window {
             depth: u64::from(depth),
             entries: Vec::new(),
+            turns: Vec::new(),
             counts: Vec::new(),
-            angles: Vec::new(),
+            chain: Chain::default(),
             boxes: Vec::new(),
             next: 0,
             count: 0,
@@ -83,13 +60,11 @@ impl Window {
             first_element: 0,
             first_cutter: 0,
             next_cutter: 0,
-            chain: 0,
-            summed: 0,
-            reach: NO_REACH,
-            last: None,
             radius: 0.0,
             corner: None,
             compared: 0,
+            free: Extent::NOTHING,
+            cleared: 0,
         }
     }
 
@@ -97,13 +72,29 @@ impl Window {
         self.depth > 0
     }
 
-    /// Forgets the stretch.
+    /// Where the next move is to be written.
+    #[inline]
+    pub fn slot(&mut self) -> (&mut Way, &mut Turns) {
+        if self.entries.is_empty() {
+            self.make_room();
+        }
+        let index = self.index(self.next);
+        (&mut self.entries[index], &mut self.turns[index])
+    }
+
+    /// Forgets the stretch, but not what was written of the next move.
     pub fn clear(&mut self) {
+        if self.next > 0 {
+            let (way, turns) = self.slot();
+            (self.entries[0], self.turns[0]) = (*way, *turns);
+        }
         let mut empty = Window::new(0);
         empty.depth = self.depth;
         std::mem::swap(&mut empty.entries, &mut self.entries);
+        std::mem::swap(&mut empty.turns, &mut self.turns);
         std::mem::swap(&mut empty.counts, &mut self.counts);
-        std::mem::swap(&mut empty.angles, &mut self.angles);
+        std::mem::swap(&mut empty.chain, &mut self.chain);
+        empty.chain.break_off(0);
         std::mem::swap(&mut empty.boxes, &mut self.boxes);
         *self = empty;
     }
@@ -118,69 +109,71 @@ impl Window {
         self.entries.len() as u64
     }
 
-    /// Takes a move; true if its element closes the contour where an earlier one begins or comes by.
-    pub fn push(&mut self, way: &Way, claimed: bool) -> bool {
+    /// Takes the move that was written; true if its element closes the contour where an earlier one begins or comes by.
+    pub fn push(&mut self) -> bool {
         self.compared = 0;
         self.first_cutter = self.next_cutter;
-        let radius = if way.part.is_some() { way.radius } else { self.radius };
-        if crosses_the_path(way, self.corner, radius) {
+        let number = self.next;
+        let index = self.index(number);
+        let (way, turns) = (&mut self.entries[index], &self.turns[index]);
+        if way.part.is_none() {
+            way.radius = self.radius;
+        }
+        let radius = way.radius;
+        if crosses_the_path(way, turns, self.corner) {
             return false;
         }
-        if self.entries.is_empty() {
-            self.make_room(way);
+        if self.radius != radius {
+            (self.radius, self.free) = (radius, Extent::NOTHING);
         }
-        let mask = self.mask();
-        let number = self.next;
-        let index = (number & mask) as usize;
-        self.radius = radius;
-        self.count += u64::from(way.element.is_some());
-        self.corner = way.element.map_or(self.corner, |element| Some(element.to));
-        let extent = extent(&way.centre, way.element.as_ref());
-        let entry = &mut self.entries[index];
-        entry.centre = way.centre;
-        entry.element = way.element;
-        entry.place = way.place;
-        entry.block = way.block;
-        entry.part = way.part;
-        entry.radius = radius;
-        entry.count = self.count;
-        entry.beside = way.beside;
-        entry.claimed = claimed;
-        self.follow(number, way);
+        let mut extent = way.centre.extent(&turns[0]);
+        if way.has_element {
+            self.count += 1;
+            self.corner = Some(way.element.ends[1]);
+            extent = extent.with(&way.element.extent(&turns[1]));
+        }
+        self.chain.follow(number, way, turns);
         self.counts[index] = self.count;
         self.next = number + 1;
-        while self.counts[(self.tail & mask) as usize] + self.depth < self.count {
+        while self.counts[self.index(self.tail)] + self.depth < self.count {
             self.tail += 1;
         }
         // The boxes of moves are given up eight at a time.
         self.tail = self.tail.max(((number & !(BOXED - 1)) + BOXED).saturating_sub(self.room()));
-        let slot = &mut self.boxes[((number & mask) / BOXED) as usize];
+        let slot = &mut self.boxes[index / BOXED as usize];
         *slot = if number.is_multiple_of(BOXED) { extent } else { slot.with(&extent) };
-        let until = self.chain.min(self.next);
-        if self.begin() >= until || !self.boxes_near(&extent, radius, until) {
+        let until = self.chain.begin().min(self.next);
+        if self.begin() >= until {
+            return false;
+        }
+        let is_clear = self.is_clear(&extent, until);
+        debug_assert_eq!(is_clear, self.near(&extent, radius, until).next().is_none(), "what is far is far");
+        if is_clear {
             return false;
         }
         self.compared = until;
         self.close(number)
     }
 
+    /// True if the latest move has come near to others.
+    #[inline]
+    pub fn has_to_compare(&self) -> bool {
+        self.compared > 0
+    }
+
     /// Tells what the latest move cuts, and what cuts its element.
     pub fn hits(&self, mut tell: impl FnMut(Hit)) {
-        if self.compared == 0 {
-            return;
-        }
-        let number = self.next - 1;
+        let number = self.next.saturating_sub(1);
         let latest = self.entry(number);
-        let extent = extent(&latest.centre, latest.element.as_ref());
+        let extent = self.extent(number);
         for other in self.near(&extent, latest.radius, self.compared) {
-            let entry = self.entry(other);
             if other == number {
                 if !latest.beside && !latest.claimed {
                     self.judge([number, number]).map(&mut tell);
                 }
                 continue;
             }
-            if latest.claimed && entry.count + 1 == latest.count {
+            if latest.claimed && self.count_at(other) + 1 == self.count {
                 continue;
             }
             if other >= self.first_element {
@@ -199,34 +192,45 @@ impl Window {
             return true;
         }
         number == self.first_element
-            && self.entry(number).element.is_some_and(|element| distance(element.nearest(hit.at), hit.at) <= LEAST_MM)
+            && self.element(number).is_some_and(|element| distance(element.nearest(hit.at), hit.at) <= LEAST_MM)
     }
 
     fn mask(&self) -> u64 {
         self.entries.len() as u64 - 1
     }
 
-    fn entry(&self, number: u64) -> &Entry {
-        &self.entries[(number & self.mask()) as usize]
+    #[inline]
+    fn index(&self, number: u64) -> usize {
+        (number & self.mask()) as usize
     }
 
-    fn make_room(&mut self, way: &Way) {
+    fn entry(&self, number: u64) -> &Way {
+        &self.entries[self.index(number)]
+    }
+
+    fn element(&self, number: u64) -> Option<Curve> {
+        self.entry(number).element(&self.turns[self.index(number)])
+    }
+
+    /// The box around a move and its element.
+    fn extent(&self, number: u64) -> Extent {
+        let (way, turns) = (self.entry(number), &self.turns[self.index(number)]);
+        let extent = way.centre.extent(&turns[0]);
+        if way.has_element { extent.with(&way.element.extent(&turns[1])) } else { extent }
+    }
+
+    fn count_at(&self, number: u64) -> u64 {
+        self.counts[self.index(number)]
+    }
+
+    #[cold]
+    fn make_room(&mut self) {
         // Corners have moves of their own.
         let room = (self.depth * 2).next_power_of_two().max(4 * BOXED) as usize;
-        let nothing = Entry {
-            centre: way.centre,
-            element: None,
-            place: way.place,
-            block: 0,
-            part: None,
-            radius: 0.0,
-            count: 0,
-            beside: false,
-            claimed: false,
-        };
-        self.entries = vec![nothing; room];
+        self.entries = vec![Way::default(); room];
+        self.turns = vec![Turns::default(); room];
         self.counts = vec![0; room];
-        self.angles = vec![NO_REACH; room];
+        self.chain = Chain::of(room);
         self.boxes = vec![Extent::NOTHING; room / BOXED as usize];
     }
 
@@ -235,14 +239,38 @@ impl Window {
         self.tail.max(self.first_element.min(self.first_cutter))
     }
 
-    fn boxes_near(&self, extent: &Extent, radius: f64, until: u64) -> bool {
-        let last = (until - 1) / BOXED;
-        (self.begin() / BOXED..=last).any(|number| self.is_box_near(number, extent, radius))
+    /// True if the latest move is near to no box of moves before `until`.
+    #[inline]
+    fn is_clear(&mut self, extent: &Extent, until: u64) -> bool {
+        let first = self.begin() / BOXED;
+        let is_free = self.free.holds(extent);
+        if is_free && (until - 1) / BOXED < self.cleared {
+            return true;
+        }
+        if !is_free {
+            (self.free, self.cleared) = (Extent::EVERYTHING, first);
+        }
+        self.clear_boxes(extent, first, until)
+    }
+
+    /// Looks at the boxes that are not known to be far, and remembers how far each is.
+    fn clear_boxes(&mut self, extent: &Extent, first: u64, until: u64) -> bool {
+        let full = self.next / BOXED;
+        for number in self.cleared.max(first)..=(until - 1) / BOXED {
+            let far = self.boxes[self.index(number * BOXED) / BOXED as usize].gap(extent) - self.radius;
+            if far <= 0.0 {
+                return false;
+            }
+            if number < full {
+                self.free = self.free.around(extent, far - ROUNDING_MM);
+                self.cleared = number + 1;
+            }
+        }
+        true
     }
 
     fn is_box_near(&self, number: u64, extent: &Extent, radius: f64) -> bool {
-        let index = ((number * BOXED) & self.mask()) / BOXED;
-        self.boxes[index as usize].is_near(extent, radius)
+        self.boxes[self.index(number * BOXED) / BOXED as usize].is_near(extent, radius)
     }
 
     /// The moves before `until` in boxes that come near.
@@ -253,87 +281,14 @@ impl Window {
         near.flat_map(move |number| (number * BOXED).max(begin)..((number + 1) * BOXED).min(until))
     }
 
-    /// Follows the directions: from which move on they lie within half a turn.
-    fn follow(&mut self, number: u64, way: &Way) {
-        let curve = match (way.part, &way.element) {
-            (Some(Part::Along), Some(element)) if way.beside => element,
-            (Some(Part::Round), _) => &way.centre,
-            _ => return self.break_off(number + 1),
-        };
-        let (begins, ends) = match &curve.turn {
-            None => {
-                let begins = direction(curve.directions()[0]);
-                (begins, begins)
-            }
-            Some(_) => curve.directions().map(direction).into(),
-        };
-        if !begins.is_finite() || !ends.is_finite() {
-            return self.break_off(number + 1);
-        }
-        let turn = self.last.map_or(0.0, |[_, last]| shortest(begins - last));
-        let first = self.last.map_or(0.0, |[angle, _]| angle) + turn;
-        let swept = curve.turn.map_or(0.0, |turn| {
-            let quarters = turn.sweep / std::f64::consts::FRAC_PI_2;
-            let ends = ends - begins;
-            ends + 4.0 * ((quarters - ends) / 4.0).round()
-        });
-        let own = [first.min(first + swept), first.max(first + swept)];
-        if self.last.is_none() || turn.abs() > EITHER_WAY {
-            self.break_off(number);
-        }
-        self.last = Some([first + swept, ends]);
-        self.shorten(number, own);
-    }
-
-    /// Takes the directions of a move and leaves out of the chain what they do not lie within half a turn of.
-    fn shorten(&mut self, number: u64, own: [f64; 2]) {
-        let mask = self.mask();
-        let index = |number: u64| (number & mask) as usize;
-        let mut chain = self.chain.max(number.saturating_sub(mask));
-        self.angles[index(number)] = own;
-        let mut reach = wider(self.reach, own);
-        let fits = |all: [f64; 2]| all[1] - all[0] <= HALF_TURN;
-        while chain < number {
-            if chain < self.summed {
-                if fits(wider(self.angles[index(chain)], reach)) {
-                    break;
-                }
-                chain += 1;
-            } else if fits(reach) {
-                break;
-            } else {
-                // Each move is summed up once.
-                let mut all = NO_REACH;
-                for earlier in (chain..=number).rev() {
-                    let angle = &mut self.angles[index(earlier)];
-                    all = wider(all, *angle);
-                    *angle = all;
-                }
-                self.summed = number + 1;
-                reach = NO_REACH;
-            }
-        }
-        self.chain = chain;
-        self.reach = reach;
-    }
-
-    fn break_off(&mut self, from: u64) {
-        self.chain = from;
-        self.summed = from;
-        self.reach = NO_REACH;
-        self.last = None;
-    }
-
     /// Looks whether the latest element comes to an earlier one; then what lies before that place and what will lie
     /// behind it lead to the contour and away from it.
     fn close(&mut self, number: u64) -> bool {
-        let latest = self.entry(number);
-        let Some(element) = latest.element else { return false };
+        let Some(element) = self.element(number) else { return false };
         let itself = element.turn.is_some() && distance(element.from, element.to) <= LEAST_MM;
         let mut met = itself.then_some((number, element.to));
         for other in self.near(&element.extent(), LEAST_MM, self.compared) {
-            let Some(earlier) = self.entry(other).element.filter(|_| other >= self.first_element && other != number)
-            else {
+            let Some(earlier) = self.element(other).filter(|_| other >= self.first_element && other != number) else {
                 continue;
             };
             if !earlier.extent().is_near(&element.extent(), LEAST_MM) {
@@ -360,25 +315,28 @@ impl Window {
     }
 
     fn trim(&mut self, number: u64, trim: impl FnOnce(&Curve) -> Curve) {
-        let mask = self.mask();
-        let entry = &mut self.entries[(number & mask) as usize];
-        entry.element = entry.element.as_ref().map(trim);
+        let index = self.index(number);
+        let (way, turns) = (&mut self.entries[index], &mut self.turns[index]);
+        if let Some(element) = way.element(turns) {
+            way.element.take(&trim(&element), &mut turns[1]);
+        }
     }
 
     /// How a move cuts an element.
     fn judge(&self, pair: [u64; 2]) -> Option<Hit> {
         let [cutter, cut] = pair.map(|number| self.entry(number));
-        let element = cut.element.as_ref()?;
-        let radius = cutter.radius.min(cut.radius) - cutter.centre.slack() - element.slack();
-        if !cutter.centre.extent().is_near(&element.extent(), radius) {
+        let element = self.element(pair[1])?;
+        let centre = cutter.centre(&self.turns[self.index(pair[0])]);
+        let radius = cutter.radius.min(cut.radius) - centre.slack() - element.slack();
+        if !centre.extent().is_near(&element.extent(), radius) {
             return None;
         }
-        let (apart, at) = cutter.centre.approach(element);
+        let (apart, at) = centre.approach(&element);
         let depth = radius - apart;
         let is_there = |end: Vector| distance(at, end) <= LEAST_MM;
         let by_the_way = match cutter.part {
-            Some(Part::Start) => cut.count == 1 && is_there(element.from),
-            None => cut.count == self.count && is_there(element.to),
+            Some(Part::Start) => self.count_at(pair[1]) == 1 && is_there(element.from),
+            None => self.count_at(pair[1]) == self.count && is_there(element.to),
             _ => false,
         };
         (depth > LEAST_MM && !by_the_way).then_some(Hit {
@@ -392,38 +350,9 @@ impl Window {
     }
 }
 
-/// The box around a move and its element.
-fn extent(centre: &Curve, element: Option<&Curve>) -> Extent {
-    let extent = centre.extent();
-    element.map_or(extent, |element| extent.with(&element.extent()))
-}
-
-const NO_REACH: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
-
-fn wider(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
-    [least(one[0], other[0]), most(one[1], other[1])]
-}
-
 /// A straight piece at a corner that leads across the contour, to the other side of it.
-fn crosses_the_path(way: &Way, corner: Option<Vector>, radius: f64) -> bool {
-    way.part == Some(Part::Round)
-        && way.centre.turn.is_none()
-        && corner.is_some_and(|corner| distance(way.centre.nearest(corner), corner) < radius - LEAST_MM)
-}
-
-/// A direction as a number from 0 to 4 that grows with its angle; opposite ones differ by 2.
-fn direction(way: Vector) -> f64 {
-    let part = way[0] / (way[0].abs() + way[1].abs());
-    if way[1] >= 0.0 { 1.0 - part } else { 3.0 + part }
-}
-
-/// The shorter way round.
-fn shortest(turn: f64) -> f64 {
-    if turn > 2.0 {
-        turn - 4.0
-    } else if turn < -2.0 {
-        turn + 4.0
-    } else {
-        turn
-    }
+#[inline]
+fn crosses_the_path(way: &Way, turns: &Turns, corner: Option<Vector>) -> bool {
+    let leads_across = |corner| distance(way.centre(turns).nearest(corner), corner) < way.radius - LEAST_MM;
+    way.part == Some(Part::Round) && !way.centre.is_arc && corner.is_some_and(leads_across)
 }

@@ -1,11 +1,10 @@
-//! Lines and arcs in the plane of compensation, and how near to each other they come; mm.
-
-use path::{Arc, Programmed};
+//! Lines and arcs in the plane of compensation, and how near to each other they come: exactly, by their geometry; mm.
 
 use std::f64::consts::TAU;
 
-/// A point or a way in the plane.
-pub(crate) type Vector = [f64; 2];
+use crate::arc::Arc;
+use crate::plane::{Vector, add, cross, distance, dot, in_plane, least, length, less, most};
+use crate::shape::Programmed;
 
 /// Angles nearer to each other than this, radians, are one.
 const SAME_ANGLE: f64 = 1e-9;
@@ -14,28 +13,36 @@ const PARALLEL: f64 = 1e-12;
 
 /// A line or an arc in the plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Curve {
+pub struct Curve {
+    /// Where it begins.
     pub from: Vector,
+    /// Where it ends.
     pub to: Vector,
     /// How it turns, if it is an arc.
     pub turn: Option<Turn>,
 }
 
 /// How an arc turns. A spiral is taken for the circle of its mean radius.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Turn {
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Turn {
+    /// About this place.
     pub center: Vector,
+    /// So far from it.
     pub radius: f64,
     /// Half of what the radii at its ends differ by.
     pub slack: f64,
+    /// Where it begins, seen from the centre; radians.
     start_angle: f64,
+    /// Angle swept, radians, + counter-clockwise.
     pub sweep: f64,
 }
 
-/// Low and high corner.
+/// A box along the axes.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Extent {
+pub struct Extent {
+    /// Its corner with the lowest coordinates.
     pub low: Vector,
+    /// Its corner with the highest.
     pub high: Vector,
 }
 
@@ -43,7 +50,20 @@ impl Extent {
     /// Of nothing.
     pub const NOTHING: Extent = Extent { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
 
+    /// Of everything.
+    pub const EVERYTHING: Extent = Extent { low: [f64::NEG_INFINITY; 2], high: [f64::INFINITY; 2] };
+
+    /// Of a straight way.
+    #[inline]
+    pub fn of_line([from, to]: [Vector; 2]) -> Extent {
+        Extent {
+            low: [least(from[0], to[0]), least(from[1], to[1])],
+            high: [most(from[0], to[0]), most(from[1], to[1])],
+        }
+    }
+
     /// The least that holds both.
+    #[inline]
     pub fn with(&self, other: &Extent) -> Extent {
         Extent {
             low: [least(self.low[0], other.low[0]), least(self.low[1], other.low[1])],
@@ -52,10 +72,32 @@ impl Extent {
     }
 
     /// True if the other comes nearer than this along both axes.
+    #[inline]
     pub fn is_near(&self, other: &Extent, distance: f64) -> bool {
-        let apart =
-            |axis: usize| self.low[axis] - other.high[axis] > distance || other.low[axis] - self.high[axis] > distance;
-        !apart(0) && !apart(1)
+        self.gap(other) <= distance
+    }
+
+    /// How far the other stays away along one axis at least.
+    #[inline]
+    pub fn gap(&self, other: &Extent) -> f64 {
+        let gap = |axis: usize| most(self.low[axis] - other.high[axis], other.low[axis] - self.high[axis]);
+        most(gap(0), gap(1))
+    }
+
+    /// True if the other lies within it.
+    #[inline]
+    pub fn holds(&self, other: &Extent) -> bool {
+        let holds = |axis: usize| self.low[axis] <= other.low[axis] && other.high[axis] <= self.high[axis];
+        holds(0) & holds(1)
+    }
+
+    /// What of it lies no farther than this from the other, along each axis.
+    pub fn around(&self, other: &Extent, distance: f64) -> Extent {
+        let around = |axis: usize| {
+            [most(self.low[axis], other.low[axis] - distance), least(self.high[axis], other.high[axis] + distance)]
+        };
+        let ([left, right], [below, above]) = (around(0), around(1));
+        Extent { low: [left, below], high: [right, above] }
     }
 }
 
@@ -76,6 +118,15 @@ impl Curve {
             sweep: arc.sweep,
         };
         Curve { from: in_plane(&arc.from, arc.axes), to: in_plane(&arc.to, arc.axes), turn: Some(turn) }
+    }
+
+    /// The arc about a centre that begins at the end of a spoke.
+    pub fn about(center: Vector, spoke: Vector, sweep: f64) -> Curve {
+        let (sin, cos) = libm::sincos(sweep);
+        let end = [spoke[0] * cos - spoke[1] * sin, spoke[0] * sin + spoke[1] * cos];
+        let turn =
+            Turn { center, radius: length(spoke), slack: 0.0, start_angle: libm::atan2(spoke[1], spoke[0]), sweep };
+        Curve { from: add(center, spoke), to: add(center, end), turn: Some(turn) }
     }
 
     /// A programmed way in the plane of these axes.
@@ -105,21 +156,11 @@ impl Curve {
     /// The box around it.
     #[inline]
     pub fn extent(&self) -> Extent {
-        let (from, to) = (self.from, self.to);
-        let mut extent = Extent {
-            low: [least(from[0], to[0]), least(from[1], to[1])],
-            high: [most(from[0], to[0]), most(from[1], to[1])],
-        };
-        if let Some(turn) = &self.turn {
-            for (axis, quarter) in [(0, 0.0), (1, 1.0), (0, 2.0), (1, 3.0)] {
-                if turn.passes(quarter * TAU / 4.0) {
-                    let side = if quarter < 2.0 { turn.radius } else { -turn.radius };
-                    extent.low[axis] = extent.low[axis].min(turn.center[axis] + side);
-                    extent.high[axis] = extent.high[axis].max(turn.center[axis] + side);
-                }
-            }
+        let extent = Extent::of_line([self.from, self.to]);
+        match &self.turn {
+            None => extent,
+            Some(turn) => turn.bulge(extent),
         }
-        extent
     }
 
     /// Its place nearest to a point.
@@ -218,6 +259,18 @@ impl Curve {
 }
 
 impl Turn {
+    /// The box around its ends, with what lies beyond them.
+    fn bulge(&self, mut extent: Extent) -> Extent {
+        for (axis, quarter) in [(0, 0.0), (1, 1.0), (0, 2.0), (1, 3.0)] {
+            if self.passes(quarter * TAU / 4.0) {
+                let side = if quarter < 2.0 { self.radius } else { -self.radius };
+                extent.low[axis] = extent.low[axis].min(self.center[axis] + side);
+                extent.high[axis] = extent.high[axis].max(self.center[axis] + side);
+            }
+        }
+        extent
+    }
+
     /// True if it comes by in this direction from its centre.
     fn passes(&self, angle: f64) -> bool {
         let way = self.way_to(angle);
@@ -292,56 +345,9 @@ impl Turn {
     }
 }
 
-/// The smaller of two numbers; quicker than `f64::min`, which looks for what is none.
-#[inline]
-pub(crate) fn least(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-/// The greater of two numbers.
-#[inline]
-pub(crate) fn most(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// A point's axes of the plane.
-#[inline]
-pub(crate) fn in_plane(point: &base::Point, axes: [u8; 2]) -> Vector {
-    axes.map(|axis| point.get(usize::from(axis)).copied().unwrap_or(0.0))
-}
-
-pub(crate) fn less(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-pub(crate) fn cross(a: Vector, b: Vector) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-pub(crate) fn length(a: Vector) -> f64 {
-    dot(a, a).sqrt()
-}
-
-pub(crate) fn distance(a: Vector, b: Vector) -> f64 {
-    length(less(a, b))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn arc(center: Vector, radius: f64, start: f64, sweep: f64) -> Curve {
-        let at = |angle: f64| {
-            let (sin, cos) = libm::sincos(angle);
-            [center[0] + radius * cos, center[1] + radius * sin]
-        };
-        let turn = Turn { center, radius, slack: 0.0, start_angle: start, sweep };
-        Curve { from: at(start), to: at(start + sweep), turn: Some(turn) }
-    }
 
     /// A place on a curve.
     fn at(curve: &Curve, part: f64) -> Vector {
@@ -369,7 +375,9 @@ mod tests {
             let mut curve = || match random() < 0.5 {
                 true => Curve::line([random() * 10.0, random() * 10.0], [random() * 10.0, random() * 10.0]),
                 false => {
-                    arc([random() * 10.0, random() * 10.0], 0.5 + random() * 5.0, random() * 6.0, random() * 12.0 - 6.0)
+                    let (sin, cos) = libm::sincos(random() * 6.0);
+                    let radius = 0.5 + random() * 5.0;
+                    Curve::about([random() * 10.0; 2], [radius * cos, radius * sin], random() * 12.0 - 6.0)
                 }
             };
             let (a, b) = (curve(), curve());
@@ -386,7 +394,7 @@ mod tests {
 
     #[test]
     fn what_lies_before_and_behind_a_place_is_the_whole() {
-        let half = arc([0.0, 0.0], 5.0, 0.0, TAU / 2.0);
+        let half = Curve::about([0.0, 0.0], [5.0, 0.0], TAU / 2.0);
         let top = [0.0, 5.0];
         let (before, behind) = (half.before(top), half.behind(top));
         assert_eq!((before.from, before.to, behind.from, behind.to), (half.from, top, top, half.to));
