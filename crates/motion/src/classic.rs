@@ -227,6 +227,11 @@ impl Interpolator {
         }
     }
 
+    /// The speeds as the operator has set them.
+    pub fn overrides(&self) -> &Overrides {
+        &self.overrides
+    }
+
     /// The interpolator stops at once and rapids as fast as they can, or they go on.
     pub fn hold(&mut self, held: bool) {
         if self.held != held {
