@@ -209,6 +209,16 @@ fn without_in_position_check_the_next_rapid_begins_when_this_one_slows_down() {
     let at = interpolator.setpoint().expect("under way");
     assert!(close(at.position[0], 98.75) && close(at.position[1], 1.25), "{at:?}");
     assert!(close(at.velocity[0], 50.0) && close(at.velocity[1], 50.0), "{at:?}");
+    // X still slows down while Y waits for its block.
+    let mut interpolator = Interpolator::new(machine(), Classic { block_s: 2.0, ..MODEL });
+    interpolator.add_rapid(&point([0.0; 3]), &point(corner), false);
+    interpolator.begin_block();
+    interpolator.add_rapid(&point(corner), &point([100.0, 100.0, 0.0]), true);
+    interpolator.drive_move(|_| {});
+    interpolator.drive_for(0.05);
+    assert!(!interpolator.is_standing() && close(interpolator.setpoint().expect("under way").position[0], 98.75));
+    interpolator.drive_for(0.06);
+    assert!(interpolator.is_standing());
     // Before a cut the rapid is driven to its end.
     let spent = drive(
         machine(),
@@ -299,10 +309,12 @@ fn overrides_act_at_once() {
 #[test]
 fn what_stands_still_takes_for_ever_and_the_next_move_goes_on() {
     let mut interpolator = Interpolator::new(machine(), MODEL);
-    interpolator.set_overrides(Overrides { feed: 0.0, ..Overrides::default() });
     interpolator.add(&line([0.0; 3], [100.0, 0.0, 0.0], 3000.0));
     interpolator.add_rapid(&point([100.0, 0.0, 0.0]), &point([0.0; 3]), true);
+    interpolator.drive_for(1.0);
+    interpolator.set_overrides(Overrides { feed: 0.0, ..Overrides::default() });
     assert_eq!(interpolator.drive_move(|_| {}), f64::INFINITY);
+    assert_eq!(interpolator.setpoint().expect("there").position, point([100.0, 0.0, 0.0]));
     assert_eq!(interpolator.last_spent().seconds, f64::INFINITY);
     assert!(close(interpolator.drive_move(|_| {}), 1.1));
     assert_eq!(interpolator.setpoint().expect("there").position, point([0.0; 3]));
