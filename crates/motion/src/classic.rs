@@ -16,7 +16,7 @@ use std::collections::VecDeque;
 use base::{AXES, Point};
 
 use buffer::Buffer;
-pub use drive::{Kind, Stretch};
+pub use drive::{Spell, SpellKind};
 use ramp::{Rapid, Rate};
 
 use crate::horizon::{Move, Setpoint};

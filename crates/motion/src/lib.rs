@@ -17,7 +17,7 @@ mod profile;
 mod stage;
 mod way;
 
-pub use classic::{Interpolator, Kind, Spent, Stretch};
+pub use classic::{Interpolator, Spell, SpellKind, Spent};
 pub use horizon::{Horizon, Leg, MOST_CELLS, Move, Setpoint};
 pub use limits::{AxisLimits, Classic, Limits, Model};
 pub use overrides::Overrides;

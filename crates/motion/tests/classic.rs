@@ -5,7 +5,7 @@ mod course;
 mod old_control;
 
 use course::{arc, limits, line, point};
-use motion::{Classic, Interpolator, Kind, Limits, Move, Overrides, Setpoint, Spent};
+use motion::{Classic, Interpolator, Limits, Move, Overrides, Setpoint, SpellKind, Spent};
 use old_control::{Step, by_moves, run};
 
 /// 100 mm/s rapid and cutting.
@@ -34,8 +34,8 @@ fn close(ours: f64, expected: f64) -> bool {
 /// Where the axes are at so many places of a move's time.
 fn look(interpolator: &mut Interpolator, places: u32) -> Vec<Setpoint> {
     let mut seen = Vec::new();
-    interpolator.drive_move(|stretch| {
-        seen.extend((0..places).map(|place| stretch.at(stretch.seconds * f64::from(place) / f64::from(places))));
+    interpolator.drive_move(|spell| {
+        seen.extend((0..places).map(|place| spell.at(spell.seconds * f64::from(place) / f64::from(places))));
     });
     seen
 }
@@ -326,6 +326,6 @@ fn stretches_tell_what_happens() {
     interpolator.begin_block();
     interpolator.add(&Move { stops: true, ..line([0.0; 3], [100.0, 0.0, 0.0], 3000.0) });
     let mut told = Vec::new();
-    interpolator.drive_move(|stretch| told.push((stretch.kind, stretch.speed)));
-    assert_eq!(told, [(Kind::Starving, 0.0), (Kind::Cutting, 50.0), (Kind::Settling, 0.0)]);
+    interpolator.drive_move(|spell| told.push((spell.kind, spell.speed)));
+    assert_eq!(told, [(SpellKind::Starving, 0.0), (SpellKind::Cutting, 50.0), (SpellKind::Settling, 0.0)]);
 }

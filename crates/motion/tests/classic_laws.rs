@@ -7,7 +7,7 @@ mod old_control;
 
 use base::AXES;
 use course::{arc, limits, line};
-use motion::{Classic, Interpolator, Kind, Limits, Move, Overrides, Setpoint};
+use motion::{Classic, Interpolator, Limits, Move, Overrides, Setpoint, SpellKind};
 use old_control::{Step, by_moves, run};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -173,18 +173,18 @@ proptest! {
         run(&mut interpolator, &steps, |interpolator| {
             let stops = interpolator.is_closed() && !interpolator.wants_more();
             let mut command = None;
-            interpolator.drive_move(|stretch| {
-                let start = stretch.at(0.0);
+            interpolator.drive_move(|spell| {
+                let start = spell.at(0.0);
                 if let Some(last) = last {
                     jumps.extend((0..3).map(|axis| (start.position[axis] - last.position[axis]).abs()));
                 }
-                last = Some(stretch.at(stretch.seconds));
-                command = Some(stretch.commanded_at(stretch.seconds));
-                if let (Kind::Settling, Some(at), Some(command)) = (stretch.kind, last, command) {
+                last = Some(spell.at(spell.seconds));
+                command = Some(spell.commanded_at(spell.seconds));
+                if let (SpellKind::Settling, Some(at), Some(command)) = (spell.kind, last, command) {
                     settled.extend((0..3).map(|axis| (at.position[axis] - command[axis]).abs()));
                 }
             });
-            // The last look was at the end of the last stretch; a dwell changes the place by what was left.
+            // The last look was at the end of the last spell; a dwell changes the place by what was left.
             if let (true, Some(at), Some(command)) = (stops && interpolator.is_empty(), last, command) {
                 jumps.extend((0..3).map(|axis| (at.position[axis] - command[axis]).abs() - model.in_position_mm));
                 last = None;
@@ -302,13 +302,13 @@ proptest! {
         let mut wrong = 0.0f64;
         run(&mut interpolator, &steps, |interpolator| {
             let mut parts = [0.0; 3];
-            let seconds = interpolator.drive_move(|stretch| {
-                let part = match stretch.kind {
-                    Kind::Starving => 0,
-                    Kind::Settling => 1,
-                    Kind::Cutting | Kind::Rapid => 2,
+            let seconds = interpolator.drive_move(|spell| {
+                let part = match spell.kind {
+                    SpellKind::Starving => 0,
+                    SpellKind::Settling => 1,
+                    SpellKind::Cutting | SpellKind::Rapid => 2,
                 };
-                parts[part] += stretch.seconds;
+                parts[part] += spell.seconds;
             });
             let spent = interpolator.last_spent();
             wrong = wrong.max((spent.starving - parts[0]).abs()).max((spent.settling - parts[1]).abs());

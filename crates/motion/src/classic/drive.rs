@@ -5,9 +5,9 @@ use base::{AXES, Point};
 use super::{Interpolator, Phase, Setpoint, Spent, What, lag};
 use crate::classic::ramp::Rapid;
 
-/// What happens in a stretch of time.
+/// What happens in a spell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
+pub enum SpellKind {
     /// The block is waited for.
     Starving,
     /// The interpolator runs along a cut.
@@ -18,19 +18,19 @@ pub enum Kind {
     Rapid,
 }
 
-/// A stretch of time in which nothing changes for the interpolator.
+/// A spell of time in which nothing changes for the interpolator.
 #[derive(Clone, Copy, Debug)]
-pub struct Stretch<'i> {
+pub struct Spell<'i> {
     of: &'i Interpolator,
     /// What happens.
-    pub kind: Kind,
+    pub kind: SpellKind,
     /// How long it lasts, s.
     pub seconds: f64,
     /// The speed of the interpolator along its cut, mm/s; zero where it runs along none.
     pub speed: f64,
 }
 
-impl Stretch<'_> {
+impl Spell<'_> {
     /// Where the axes are after a time, and how fast.
     pub fn at(&self, seconds: f64) -> Setpoint {
         self.of.seen_at(self.of.spent + seconds, self.of.at.unwrap_or_default())
@@ -43,16 +43,16 @@ impl Stretch<'_> {
 }
 
 impl Interpolator {
-    /// Drives to the end of the next move: how long that takes, s. `stretch` is shown every stretch of it.
+    /// Drives to the end of the next move: how long that takes, s. `spell` is shown every spell of it.
     ///
     /// What stands still (an override of zero, a hold) takes an infinite time; the next move begins at its end.
-    pub fn drive_move(&mut self, mut stretch: impl FnMut(&Stretch)) -> f64 {
+    pub fn drive_move(&mut self, mut spell: impl FnMut(&Spell)) -> f64 {
         let mut total = 0.0;
         while self.begin() {
             let seconds = (self.seconds - self.spent).max(0.0);
             if let Some(kind) = self.kind() {
                 let speed = if let Phase::Cutting { speed, .. } = self.phase { speed } else { 0.0 };
-                stretch(&Stretch { of: self, kind, seconds, speed });
+                spell(&Spell { of: self, kind, seconds, speed });
             }
             total += seconds;
             self.spent = self.seconds;
@@ -100,13 +100,13 @@ impl Interpolator {
             && behind.iter().all(|behind| behind.abs() <= self.model.in_position_mm)
     }
 
-    fn kind(&self) -> Option<Kind> {
+    fn kind(&self) -> Option<SpellKind> {
         match self.phase {
             Phase::Between => None,
-            Phase::Starving => Some(Kind::Starving),
-            Phase::Cutting { .. } => Some(Kind::Cutting),
-            Phase::Settling => Some(Kind::Settling),
-            Phase::Rapid => Some(Kind::Rapid),
+            Phase::Starving => Some(SpellKind::Starving),
+            Phase::Cutting { .. } => Some(SpellKind::Cutting),
+            Phase::Settling => Some(SpellKind::Settling),
+            Phase::Rapid => Some(SpellKind::Rapid),
         }
     }
 
