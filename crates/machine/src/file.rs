@@ -9,6 +9,7 @@ use meaning::{AxisFacts, CodeLine, CodeRules, Kinematics, MachineFacts};
 use motion::{AxisLimits, Limits};
 
 use crate::kinematics::kinematics;
+use crate::path_table::{PathTable, not_negative, path, positive};
 use crate::travel::Travel;
 
 static MACHINES: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../machines");
@@ -65,6 +66,8 @@ pub struct MachineAxis {
     pub max_feed: f64,
     /// Acceleration, mm/s².
     pub acceleration: f64,
+    /// Change of acceleration, mm/s³; 0 is not limited.
+    pub jerk: f64,
     /// Reference points 1 to 4, machine coordinates.
     pub reference_points: [f64; 4],
     /// Signed distance of positioning from one side.
@@ -80,8 +83,8 @@ pub struct MachineFile {
     pub description: String,
     /// Its axes in their order.
     pub axes: Vec<MachineAxis>,
-    /// True if rapid positioning runs in a straight line.
-    pub straight_rapid: bool,
+    /// How the control leads them.
+    pub path: PathTable,
     /// True if B is an axis and there is no B function.
     pub b_axis: bool,
     /// How codes go out.
@@ -111,17 +114,12 @@ impl MachineFile {
     pub fn limits(&self) -> Limits {
         let mut axes = [AxisLimits::default(); AXES];
         for (limits, axis) in axes.iter_mut().zip(&self.axes) {
-            let acceleration = axis.acceleration;
-            let jerk = f64::INFINITY;
-            *limits = AxisLimits { rapid: axis.rapid / 60.0, max_feed: axis.max_feed / 60.0, acceleration, jerk };
+            let jerk = if axis.jerk > 0.0 { axis.jerk } else { f64::INFINITY };
+            let (rapid, max_feed) = (axis.rapid / 60.0, axis.max_feed / 60.0);
+            *limits = AxisLimits { rapid, max_feed, acceleration: axis.acceleration, jerk };
         }
-        Limits {
-            axes,
-            count: self.axes.len(),
-            straight_rapid: self.straight_rapid,
-            corner_tolerance: 0.01,
-            ..Limits::default()
-        }
+        let PathTable { model, corner_tolerance, straight_rapid, servo_period } = self.path;
+        Limits { axes, count: self.axes.len(), straight_rapid, model, corner_tolerance, servo_period }
     }
 
     /// The limits of travel.
@@ -175,7 +173,7 @@ fn machine(root: &mut Table) -> MachineFile {
         name,
         description,
         axes,
-        straight_rapid: path.unwrap_or(false),
+        path: path.unwrap_or_default(),
         b_axis,
         codes,
         times,
@@ -238,7 +236,7 @@ fn axis(table: &mut Table, letter: u8) -> MachineAxis {
     let rapid = positive(table, "rapid", 12_000.0);
     let max_feed = positive(table, "max_feed", 6000.0);
     let acceleration = positive(table, "acceleration", 500.0);
-    table.number("jerk");
+    let jerk = not_negative(table, "jerk", 0.0);
     MachineAxis {
         letter,
         rotary: kind.unwrap_or(false),
@@ -246,37 +244,10 @@ fn axis(table: &mut Table, letter: u8) -> MachineAxis {
         rapid,
         max_feed,
         acceleration,
+        jerk,
         reference_points,
         approach: table.number("approach").unwrap_or(0.0),
     }
-}
-
-fn positive(table: &mut Table, key: &'static str, default: f64) -> f64 {
-    let place = table.place_of(key);
-    match (table.number(key), place) {
-        (Some(value), Some(place)) if value <= 0.0 => {
-            table.error(place, format!("{key} must be greater than zero"));
-            default
-        }
-        (value, _) => value.unwrap_or(default),
-    }
-}
-
-/// Reads `[path]`; of it only `straight_rapid` acts before motion looks ahead.
-fn path(table: &mut Table) -> bool {
-    let place = table.place_of("model");
-    let model = table.choice("model", &[("trapezoid", true), ("jerk", false), ("classic", false)]);
-    if let (Some(false), Some(place)) = (model, place) {
-        table.error(place, "this path model is not built yet; use model = \"trapezoid\"");
-    }
-    for key in ["corner_tolerance", "servo_period", "block_time"] {
-        table.number(key);
-    }
-    table.table("time_constant", |t| {
-        t.number("rapid");
-        t.number("feed");
-    });
-    table.boolean("straight_rapid").unwrap_or(false)
 }
 
 fn spindle(table: &mut Table) {

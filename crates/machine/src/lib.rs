@@ -7,10 +7,12 @@ mod area;
 mod event;
 mod file;
 mod kinematics;
+mod path_table;
 mod travel;
 mod virtual_machine;
 
 pub use event::{Event, EventKind, ResetCause, StopCause};
 pub use file::{CodeTimes, MachineAxis, MachineFile, Wiring, builtin_machine, builtin_machines, read_machine};
+pub use path_table::PathTable;
 pub use travel::Travel;
 pub use virtual_machine::{Machine, Refusal, VirtualMachine};

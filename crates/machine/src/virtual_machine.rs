@@ -90,7 +90,7 @@ impl VirtualMachine {
             skip: false,
             contact: Vec::new(),
             was_skipped: false,
-            rates: (!file.straight_rapid).then(|| file.rapid_rates()),
+            rates: (!file.path.straight_rapid).then(|| file.rapid_rates()),
             stroke_check,
             times: file.times.clone(),
             pending: [None; PENDING],

@@ -7,6 +7,7 @@
 //! comes later and changes durations only.
 
 mod cell;
+mod classic;
 mod corner;
 mod horizon;
 mod limits;
@@ -17,6 +18,7 @@ mod profile;
 mod stage;
 mod way;
 
+pub use classic::{Interpolator, Spell, SpellKind, Spent};
 pub use horizon::{Horizon, Leg, MOST_CELLS, Move, Setpoint};
 pub use limits::{AxisLimits, Classic, Limits, Model};
 pub use overrides::Overrides;

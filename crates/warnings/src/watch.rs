@@ -74,7 +74,8 @@ impl Watch {
         let needs_row = |name: &str| control.warnings.iter().any(|row| row.own && row.name == name);
         let silent = Rule::ALL.iter().copied().filter(|rule| needs_row(rule.name()) && !own(rule.name()));
         let silent: Vec<Rule> = silent.collect();
-        let length_axis = facts.axis(LENGTH_AXIS).filter(|_| !machine.straight_rapid).map(|axis| (axis, LENGTH_AXIS));
+        let length_axis =
+            facts.axis(LENGTH_AXIS).filter(|_| !machine.path.straight_rapid).map(|axis| (axis, LENGTH_AXIS));
         let mut across = [false; AXES];
         for (index, axis) in facts.axes.iter().enumerate().take(AXES) {
             across[index] = !axis.rotary && length_axis.is_some_and(|(length, _)| length != index);
