@@ -157,11 +157,15 @@ impl Window {
         let slot = &mut self.boxes[((number & mask) / BOXED) as usize];
         *slot = if number.is_multiple_of(BOXED) { extent } else { slot.with(&extent) };
         let until = self.chain.min(self.next);
-        if self.begin() >= until || !self.boxes_near(&extent, radius, until) {
-            return false;
+        if self.begin() < until && self.boxes_near(&extent, radius, until) {
+            self.compared = until;
+            return self.close(number);
         }
-        self.compared = until;
-        self.close(number)
+        let closes = way.element.as_ref().is_some_and(closes_on_itself);
+        if closes {
+            self.close_from(number, number);
+        }
+        closes
     }
 
     /// Tells what the latest move cuts, and what cuts its element.
@@ -329,8 +333,7 @@ impl Window {
     fn close(&mut self, number: u64) -> bool {
         let latest = self.entry(number);
         let Some(element) = latest.element else { return false };
-        let itself = element.turn.is_some() && distance(element.from, element.to) <= LEAST_MM;
-        let mut met = itself.then_some((number, element.to));
+        let mut met = closes_on_itself(&element).then_some((number, element.to));
         for other in self.near(&element.extent(), LEAST_MM, self.compared) {
             let Some(earlier) = self.entry(other).element.filter(|_| other >= self.first_element && other != number)
             else {
@@ -354,9 +357,14 @@ impl Window {
             self.trim(number, |element| element.before(place));
             self.trim(other, |element| element.behind(place));
         }
-        self.first_element = other;
-        self.next_cutter = number + 1;
+        self.close_from(other, number);
         true
+    }
+
+    /// The contour is closed from an element to the end of the latest one.
+    fn close_from(&mut self, first: u64, last: u64) {
+        self.first_element = first;
+        self.next_cutter = last + 1;
     }
 
     fn trim(&mut self, number: u64, trim: impl FnOnce(&Curve) -> Curve) {
@@ -390,6 +398,11 @@ impl Window {
             element: cut.place,
         })
     }
+}
+
+/// True for a full circle.
+fn closes_on_itself(element: &Curve) -> bool {
+    element.turn.is_some() && distance(element.from, element.to) <= LEAST_MM
 }
 
 /// The box around a move and its element.
