@@ -10,7 +10,7 @@ use base::Place;
 use path::Part;
 
 use super::{Hit, LEAST_MM};
-use crate::curve::{Curve, Extent, Vector, distance, least, most};
+use crate::curve::{Curve, Extent, Vector, distance, dot, least, length, less, most};
 use crate::way::Way;
 
 /// Moves in a box together.
@@ -35,6 +35,8 @@ struct Entry {
     beside: bool,
     /// How it cuts into its own element and the last one is said elsewhere.
     claimed: bool,
+    /// It begins where the tool stopped without having seen its element.
+    blind: bool,
 }
 
 /// The latest moves of a stretch, in rings: by their number, as many as a power of two.
@@ -146,6 +148,7 @@ impl Window {
         entry.count = self.count;
         entry.beside = way.beside;
         entry.claimed = claimed;
+        entry.blind = !way.beside && way.element.as_ref().is_some_and(|element| begins_blind(way, element));
         self.follow(number, way);
         self.counts[index] = self.count;
         self.next = number + 1;
@@ -227,6 +230,7 @@ impl Window {
             count: 0,
             beside: false,
             claimed: false,
+            blind: false,
         };
         self.entries = vec![nothing; room];
         self.counts = vec![0; room];
@@ -396,6 +400,8 @@ impl Window {
             pair,
             cutter: (cutter.place, cutter.block, cutter.part),
             element: cut.place,
+            // Standing there the tool cuts what comes; going on from there, whatever lies in its way.
+            blind: cutter.blind || cut.blind && cutter.count + 1 == cut.count,
         })
     }
 }
@@ -403,6 +409,14 @@ impl Window {
 /// True for a full circle.
 fn closes_on_itself(element: &Curve) -> bool {
     element.turn.is_some() && distance(element.from, element.to) <= LEAST_MM
+}
+
+/// True if the tool stands beside its element's beginning by its radius, but not square to it: square to the element
+/// before, as it does where no next one is seen.
+fn begins_blind(way: &Way, element: &Curve) -> bool {
+    let out = less(way.centre.from, element.from);
+    let [begins, _] = element.directions();
+    (length(out) - way.radius).abs() <= LEAST_MM && dot(out, begins).abs() > LEAST_MM * length(begins)
 }
 
 /// The box around a move and its element.
