@@ -4,7 +4,7 @@ use base::{AXES, Place, Point};
 use meaning::Interpreter;
 use path::{Arc, Corner, Part, RunBeside};
 
-use crate::curve::{Curve, Vector, cross, distance, dot, in_plane, less};
+use crate::curve::{Curve, Vector, cross, distance, dot, in_plane, length, less};
 
 /// A count in mm.
 const MM: f64 = 1e-6;
@@ -39,6 +39,17 @@ pub(crate) struct Way<'w> {
     /// Its centre runs beside its element from end to end.
     pub beside: bool,
     pub interpreter: &'w Interpreter,
+}
+
+impl Way<'_> {
+    /// True if the tool stands beside its element's beginning by its radius, but not square to it: square to the element
+    /// before, as it does where no next one is seen. Within `least` mm.
+    pub fn begins_blind(&self, least: f64) -> bool {
+        let Some(element) = self.element.as_ref().filter(|_| !self.beside) else { return false };
+        let out = less(self.centre.from, element.from);
+        let [begins, _] = element.directions();
+        (length(out) - self.radius).abs() <= least && dot(out, begins).abs() > least * length(begins)
+    }
 }
 
 /// What is kept of a stretch of compensation.

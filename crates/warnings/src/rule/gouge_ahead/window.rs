@@ -10,7 +10,7 @@ use base::Place;
 use path::Part;
 
 use super::{Hit, LEAST_MM};
-use crate::curve::{Curve, Extent, Vector, distance, dot, least, length, less, most};
+use crate::curve::{Curve, Extent, Vector, distance, least, most};
 use crate::way::Way;
 
 /// Moves in a box together.
@@ -148,7 +148,7 @@ impl Window {
         entry.count = self.count;
         entry.beside = way.beside;
         entry.claimed = claimed;
-        entry.blind = !way.beside && way.element.as_ref().is_some_and(|element| begins_blind(way, element));
+        entry.blind = way.begins_blind(LEAST_MM);
         self.follow(number, way);
         self.counts[index] = self.count;
         self.next = number + 1;
@@ -409,14 +409,6 @@ impl Window {
 /// True for a full circle.
 fn closes_on_itself(element: &Curve) -> bool {
     element.turn.is_some() && distance(element.from, element.to) <= LEAST_MM
-}
-
-/// True if the tool stands beside its element's beginning by its radius, but not square to it: square to the element
-/// before, as it does where no next one is seen.
-fn begins_blind(way: &Way, element: &Curve) -> bool {
-    let out = less(way.centre.from, element.from);
-    let [begins, _] = element.directions();
-    (length(out) - way.radius).abs() <= LEAST_MM && dot(out, begins).abs() > LEAST_MM * length(begins)
 }
 
 /// The box around a move and its element.
