@@ -9,6 +9,7 @@
 mod cell;
 mod classic;
 mod corner;
+mod engine;
 mod horizon;
 mod limits;
 mod overrides;
@@ -19,6 +20,7 @@ mod stage;
 mod way;
 
 pub use classic::{Interpolator, Spell, SpellKind, Spent};
+pub use engine::Sample;
 pub use horizon::{Horizon, Leg, MOST_CELLS, Move, Setpoint};
 pub use limits::{AxisLimits, Classic, Limits, Model};
 pub use overrides::Overrides;

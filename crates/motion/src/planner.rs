@@ -5,9 +5,11 @@
 
 use std::collections::VecDeque;
 
+use meaning::RapidKind;
 use path::Shape;
 
-use crate::horizon::{Horizon, Leg, Move, Setpoint};
+use crate::engine::{Engine, Kept};
+use crate::horizon::{Leg, Setpoint};
 use crate::limits::Limits;
 use crate::overrides::Overrides;
 use crate::stage::{Joins, as_move};
@@ -20,6 +22,10 @@ pub enum Ahead {
     Move(Shape),
     /// The axes stand before anything else moves.
     Rest,
+    /// A block begins.
+    Block,
+    /// The control has read nothing ahead.
+    NothingRead,
 }
 
 /// How a move runs, mm/s along its way; nothing but zeros where moves are not planned together.
@@ -49,60 +55,71 @@ pub struct Stretch {
 /// The moves shown and not yet executed.
 #[derive(Clone, Debug)]
 pub(crate) struct Planner {
-    horizon: Horizon,
+    engine: Engine,
     limits: Limits,
     shown: VecDeque<Shape>,
-    /// The stretches of the move driven last, if they are wanted.
-    stretches: Vec<Stretch>,
-    keeps_stretches: bool,
+    /// How the move driven last is driven, if that is wanted.
+    kept: Option<Kept>,
 }
 
 impl Planner {
     pub fn new(limits: Limits) -> Planner {
-        Planner {
-            horizon: Horizon::new(limits),
-            limits,
-            shown: VecDeque::new(),
-            stretches: Vec::new(),
-            keeps_stretches: false,
-        }
+        Planner { engine: Engine::new(limits), limits, shown: VecDeque::new(), kept: None }
     }
 
     pub fn set_overrides(&mut self, overrides: Overrides) {
-        self.horizon.set_overrides(overrides);
+        self.engine.set_overrides(overrides);
     }
 
-    pub fn keep_stretches(&mut self) {
-        self.keeps_stretches = true;
+    pub fn keep_details(&mut self) {
+        self.kept = Some(Kept::default());
     }
 
-    pub fn stretches(&self) -> &[Stretch] {
-        &self.stretches
+    pub fn kept(&self) -> Option<&Kept> {
+        self.kept.as_ref()
     }
 
     /// True while the next move might be driven faster if more were known.
     pub fn wants_more(&mut self) -> bool {
-        self.horizon.wants_more()
+        self.engine.wants_more()
     }
 
     pub fn show(&mut self, ahead: &Ahead) {
         match ahead {
-            Ahead::Rest => self.horizon.stop(),
-            Ahead::Move(shape) => match as_move(shape, &self.limits) {
-                Joins::Move(next) => {
-                    self.shown.push_back(*shape);
-                    self.add(&next);
-                }
-                Joins::Nothing => {}
-                Joins::Rest => self.horizon.stop(),
-            },
+            Ahead::Rest => self.engine.stop(),
+            Ahead::Block => self.engine.begin_block(),
+            Ahead::NothingRead => self.engine.empty_buffer(),
+            Ahead::Move(shape) => self.show_move(shape),
         }
     }
 
-    fn add(&mut self, next: &Move) {
-        if !self.horizon.is_closed() {
-            self.horizon.add(next);
+    fn show_move(&mut self, shape: &Shape) {
+        let joins = as_move(shape, &self.limits);
+        if joins == Joins::Nothing {
+            return;
         }
+        match (&joins, shape) {
+            (Joins::Move(next), _) if !self.engine.is_closed() => self.engine.add(next),
+            (Joins::Move(_), _) => {}
+            (_, Shape::Rapid { from, to, kind }) if self.engine.drives_all() => {
+                self.engine.add_rapid(from, to, *kind == RapidKind::Checked);
+            }
+            _ => return self.engine.stop(),
+        }
+        self.shown.push_back(*shape);
+    }
+
+    /// True if the shape is driven together with others.
+    pub fn joins(&self, shape: &Shape) -> bool {
+        match shape {
+            Shape::Rapid { .. } => self.engine.drives_all(),
+            _ => matches!(as_move(shape, &self.limits), Joins::Move(_)),
+        }
+    }
+
+    /// The axes have stood for this time, s; how much longer they must for want of a block.
+    pub fn pass(&mut self, seconds: f64) -> f64 {
+        self.engine.pass(seconds)
     }
 
     /// True if this is the move that comes next of those shown, or none has been shown.
@@ -117,13 +134,13 @@ impl Planner {
 
     /// Forgets what was shown.
     pub fn forget(&mut self) {
-        self.horizon.clear();
+        self.engine.clear();
         self.shown.clear();
     }
 
     /// The next move shown is driven for a time: what is left of it, and whether the move has ended.
     pub fn drive_for(&mut self, seconds: f64) -> (f64, bool) {
-        let driven = self.horizon.drive_for(seconds);
+        let driven = self.engine.drive_for(seconds);
         if driven.1 {
             self.shown.pop_front();
         }
@@ -132,47 +149,35 @@ impl Planner {
 
     /// The axes shall stand as soon as they can, or go on.
     pub fn hold(&mut self, held: bool) {
-        self.horizon.hold(held);
+        self.engine.hold(held);
     }
 
     /// What follows is touched: the axes stand at the end of the first move at whose end they can.
     pub fn stand_soon(&mut self) {
         if !self.shown.is_empty() {
-            let left = self.horizon.stand_soon();
+            let left = self.engine.stand_soon(self.shown.len());
             self.shown.truncate(left);
         }
     }
 
     /// Where the axes are on what is being driven, and how fast.
     pub fn setpoint(&self) -> Option<Setpoint> {
-        self.horizon.setpoint()
+        self.engine.setpoint()
     }
 
     /// True if nothing moves.
     pub fn is_standing(&self) -> bool {
-        self.horizon.is_standing()
+        self.engine.is_standing()
     }
 
-    /// Drives the next move shown: its time, s, and how it runs.
-    pub fn drive(&mut self) -> (f64, Pace) {
-        let Planner { horizon, shown, stretches, keeps_stretches, .. } = self;
-        stretches.clear();
-        let asked = horizon.next_asks() as f32;
-        let mut allowed = f32::INFINITY;
-        let mut pace: Option<Pace> = None;
-        let seconds = horizon.drive_move(|way, axes_allow, leg| {
-            let (speed, end) = (leg.speed as f32, leg.at(leg.seconds).1 as f32);
-            let pace = pace.get_or_insert(Pace { asked, start: speed, ..Pace::default() });
-            pace.top = pace.top.max(speed).max(end);
-            pace.end = end;
-            if !matches!(way, Way::Blend { .. }) {
-                allowed = allowed.min(axes_allow.sqrt() as f32);
-            }
-            if *keeps_stretches {
-                stretches.push(Stretch { way: *way, leg: *leg });
-            }
-        });
-        shown.pop_front();
-        (seconds, Pace { allowed: allowed.min(asked), ..pace.unwrap_or_default() })
+    /// Drives the next move shown: its time, s, and how it runs. It asks for `asked`, mm/s.
+    pub fn drive(&mut self, asked: f64) -> (f64, Pace) {
+        if let Some(kept) = &mut self.kept {
+            kept.stretches.clear();
+            kept.samples.clear();
+        }
+        let driven = self.engine.drive(asked, self.kept.as_mut());
+        self.shown.pop_front();
+        driven
     }
 }

@@ -4,6 +4,7 @@ use base::{AXES, Point, Seconds};
 use meaning::{Answer, Feed, Pull, StaleBarrier};
 use path::{Arc, Path, Shape, Shaped};
 
+use crate::engine::{Kept, Sample};
 use crate::horizon::{Move, Setpoint};
 use crate::limits::Limits;
 use crate::overrides::Overrides;
@@ -114,16 +115,27 @@ impl Motion {
     /// Keeps how the move planned last is driven.
     pub fn keep_stretches(&mut self) {
         if let Some(planner) = &mut self.planner {
-            planner.keep_stretches();
+            planner.keep_details();
         }
     }
 
     /// How the move planned last is driven, stretch by stretch.
     pub fn stretches(&self) -> &[Stretch] {
-        match (&self.planner, &self.planned) {
-            (Some(planner), Some(_)) => planner.stretches(),
-            _ => &[],
-        }
+        self.kept().map_or(&[], |kept| &kept.stretches)
+    }
+
+    /// Where the axes were on the move planned last, in order of time, if they run beside it (model `classic`).
+    pub fn samples(&self) -> &[Sample] {
+        self.kept().map_or(&[], |kept| &kept.samples)
+    }
+
+    fn kept(&self) -> Option<&Kept> {
+        self.planner.as_ref().filter(|_| self.planned.is_some()).and_then(|planner| planner.kept())
+    }
+
+    /// The axes have stood for this time, s; how much longer they must for want of a block.
+    pub fn pass(&mut self, seconds: f64) -> f64 {
+        self.planner.as_mut().map_or(0.0, |planner| planner.pass(seconds))
     }
 
     /// True if the present shape is a move that is driven together with others, and not what was shown.
@@ -134,7 +146,8 @@ impl Motion {
 
     /// True if the present shape is driven together with others.
     pub fn is_joined(&self) -> bool {
-        matches!(as_move(&self.upstream.current().shape, &self.limits), Joins::Move(_))
+        let shape = &self.upstream.current().shape;
+        self.planner.as_ref().is_some_and(|planner| planner.joins(shape))
     }
 
     /// True if the next move that is driven together with others has been shown.
@@ -163,7 +176,8 @@ impl Motion {
 
     /// Plans the present move, which has been shown.
     pub fn plan(&mut self) {
-        self.planned = self.planner.as_mut().filter(|planner| planner.knows()).map(|planner| planner.drive());
+        let asked = self.asks();
+        self.planned = self.planner.as_mut().filter(|planner| planner.knows()).map(|planner| planner.drive(asked));
     }
 
     /// The speeds as the operator has set them, from the next move on.
@@ -188,10 +202,22 @@ impl Motion {
         &self.overrides
     }
 
+    /// The speed that the present move asks for, mm/s.
+    fn asks(&self) -> f64 {
+        match &self.upstream.current().shape {
+            Shape::Rapid { from, to, .. } => self.rapid_rate(from, to, distance(from, to, self.limits.count)),
+            Shape::Line { feed, .. } | Shape::Arc { feed, .. } => self.overrides.actual(feed) / 60.0,
+            _ => 0.0,
+        }
+    }
+
     /// Begins to drive the present move step by step; it has been shown if it is driven together with others.
     pub fn begin(&mut self) {
         self.planned = None;
         let Shape::Rapid { from, to, .. } = &self.upstream.current().shape else { return };
+        if self.is_joined() {
+            return;
+        }
         let (limits, overrides) = (&self.limits, &self.overrides);
         self.positioning = Some(if limits.straight_rapid {
             let length = distance(from, to, limits.count);

@@ -45,10 +45,14 @@ impl<L: Library> Session<L> {
         let shaped = self.motion.upstream.current();
         let (place, stop_point, closes) = (shaped.place, shaped.stop_point, shaped.closes);
         let stop = if let Shape::Await(stop) = shaped.shape { stop } else { None };
+        let (moves, since) = (shaped.shape.is_move(), self.machine.time());
         match self.execute_shape() {
             Ok(()) if stop_point && self.stops_at_blocks() => self.stop(place, StopKind::SingleBlock),
             Ok(()) => {}
             Err(refusal) => self.raise(self.at_the_word(refusal.alarm)),
+        }
+        if !moves {
+            self.pass_since(since);
         }
         if let Some(kind) = stop {
             self.stop(place, kind);
@@ -61,6 +65,7 @@ impl<L: Library> Session<L> {
     /// The switches that act from block to block are looked at.
     fn begin_block(&mut self) {
         self.between_blocks = false;
+        self.tell_block();
         // #3004 bit 1: the program fixes the feed override at 100 %.
         let fixes = self.interpreter().executing_state().feed_control & 2 != 0;
         if self.switched || self.fixes_override != fixes {
@@ -206,6 +211,7 @@ impl<L: Library> Session<L> {
 
     fn stop(&mut self, place: Place, kind: StopKind) {
         self.rest();
+        self.tell_nothing_read();
         self.stopped = true;
         self.tell(place, EventKind::Stop(StopCause::Program(kind)));
     }
@@ -218,7 +224,9 @@ impl<L: Library> Session<L> {
         if std::mem::take(&mut self.codes_out) && waits {
             self.rest();
         }
+        let since = self.machine.time();
         self.machine.finish_block(&place, waits, &mut self.events);
+        self.pass_since(since);
         match close {
             Close::Stop(kind) => self.stop(place, kind),
             Close::End(kind) => self.end(kind, place),

@@ -5,10 +5,10 @@
 
 use std::collections::VecDeque;
 
-use base::SourceId;
+use base::{Seconds, SourceId};
+use machine::Machine;
 use meaning::Quantity;
 use motion::Ahead;
-use path::Shape;
 
 use super::{Percents, Session, Step};
 use crate::library::{Library, LibraryError, Wanted};
@@ -102,6 +102,11 @@ impl<L: Library> Session<L> {
         self.motion.keep_stretches();
     }
 
+    /// Where the axes were on the move handed out last, in order of time, if they ran beside it (model `classic`).
+    pub fn samples(&self) -> &[motion::Sample] {
+        self.motion.samples()
+    }
+
     /// How the move handed out last is driven, stretch by stretch; empty for what is no cutting move.
     pub fn stretches(&self) -> &[motion::Stretch] {
         self.motion.stretches()
@@ -116,7 +121,7 @@ impl<L: Library> Session<L> {
     /// Plans the move that is to be executed now.
     pub(super) fn plan(&mut self) {
         if let Some(met) = &mut self.met {
-            met.push_back(if self.motion.is_joined() { move_of(&self.motion) } else { Ahead::Rest });
+            met.push_back(Ahead::Move(self.motion.upstream.current().shape));
             return;
         }
         if !self.motion.plans() {
@@ -138,6 +143,29 @@ impl<L: Library> Session<L> {
         }
         if !self.live {
             self.motion.plan();
+        }
+    }
+
+    /// In a rehearsal: a block begins.
+    pub(super) fn tell_block(&mut self) {
+        if let Some(met) = &mut self.met {
+            met.push_back(Ahead::Block);
+        }
+    }
+
+    /// In a rehearsal: the control has read nothing ahead of this.
+    pub(super) fn tell_nothing_read(&mut self) {
+        if let Some(met) = &mut self.met {
+            met.push_back(Ahead::NothingRead);
+        }
+    }
+
+    /// The axes have stood since then; where blocks are not ready in time they stand longer.
+    pub(super) fn pass_since(&mut self, since: Seconds) {
+        let passed = self.machine.time() - since;
+        if self.motion.plans() && passed.0 > 0.0 {
+            let longer = self.motion.pass(passed.0);
+            self.machine.stand_until(self.machine.time() + Seconds(longer));
         }
     }
 
@@ -235,13 +263,5 @@ impl<L: Library> Session<L> {
             failed: None,
             unknown: self.unknown,
         }
-    }
-}
-
-fn move_of(motion: &motion::Motion) -> Ahead {
-    let shaped = motion.upstream.current();
-    match shaped.shape {
-        shape @ (Shape::Line { .. } | Shape::Arc { .. }) => Ahead::Move(shape),
-        _ => Ahead::Rest,
     }
 }

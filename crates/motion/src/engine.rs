@@ -1,0 +1,208 @@
+//! The three models behind one face: what is added, what is driven, what is seen of it.
+
+use base::Point;
+
+use crate::classic::Interpolator;
+use crate::horizon::{Horizon, Leg, Move, Setpoint};
+use crate::limits::{Limits, Model};
+use crate::overrides::Overrides;
+use crate::planner::Pace;
+use crate::way::Way;
+
+/// Setpoints that are kept of one spell of the old controls' motion.
+const KEPT_OF_A_SPELL: u32 = 64;
+
+/// A planner of one of the models.
+#[derive(Clone, Debug)]
+pub(crate) enum Engine {
+    /// Models `trapezoid` and, where nothing else is said, all others.
+    Horizon(Box<Horizon>),
+    /// Model `classic`.
+    Classic(Box<Interpolator>),
+}
+
+/// A setpoint, and when it holds.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Sample {
+    /// Since the beginning of its move, s.
+    pub seconds: f64,
+    /// Where the axes are, and how fast.
+    pub setpoint: Setpoint,
+}
+
+/// What is kept of a move that is driven.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Kept {
+    /// Its stretches.
+    pub stretches: Vec<crate::Stretch>,
+    /// Setpoints of a move that runs beside its way.
+    pub samples: Vec<Sample>,
+}
+
+impl Engine {
+    pub fn new(limits: Limits) -> Engine {
+        match limits.model {
+            Model::Classic(classic) => Engine::Classic(Box::new(Interpolator::new(limits, classic))),
+            Model::Trapezoid | Model::Jerk => Engine::Horizon(Box::new(Horizon::new(limits))),
+        }
+    }
+
+    /// True if it drives rapids, too, and asks for every block.
+    pub fn drives_all(&self) -> bool {
+        matches!(self, Engine::Classic(_))
+    }
+
+    pub fn clear(&mut self) {
+        match self {
+            Engine::Horizon(horizon) => horizon.clear(),
+            Engine::Classic(classic) => classic.clear(),
+        }
+    }
+
+    pub fn is_closed(&self) -> bool {
+        match self {
+            Engine::Horizon(horizon) => horizon.is_closed(),
+            Engine::Classic(classic) => classic.is_closed(),
+        }
+    }
+
+    pub fn wants_more(&mut self) -> bool {
+        match self {
+            Engine::Horizon(horizon) => horizon.wants_more(),
+            Engine::Classic(classic) => classic.wants_more(),
+        }
+    }
+
+    pub fn add(&mut self, next: &Move) {
+        match self {
+            Engine::Horizon(horizon) => horizon.add(next),
+            Engine::Classic(classic) => classic.add(next),
+        }
+    }
+
+    /// Adds positioning, with the in-position check or without.
+    pub fn add_rapid(&mut self, from: &Point, to: &Point, checked: bool) {
+        match self {
+            Engine::Horizon(horizon) => horizon.stop(),
+            Engine::Classic(classic) => classic.add_rapid(from, to, checked),
+        }
+    }
+
+    pub fn stop(&mut self) {
+        match self {
+            Engine::Horizon(horizon) => horizon.stop(),
+            Engine::Classic(classic) => classic.stop(),
+        }
+    }
+
+    /// A block begins.
+    pub fn begin_block(&mut self) {
+        if let Engine::Classic(classic) = self {
+            classic.begin_block();
+        }
+    }
+
+    /// Nothing has been read ahead.
+    pub fn empty_buffer(&mut self) {
+        if let Engine::Classic(classic) = self {
+            classic.empty_buffer();
+        }
+    }
+
+    /// The axes have stood for this time, s; how much longer they must for want of a block.
+    pub fn pass(&mut self, seconds: f64) -> f64 {
+        match self {
+            Engine::Horizon(_) => 0.0,
+            Engine::Classic(classic) => classic.pass(seconds),
+        }
+    }
+
+    pub fn set_overrides(&mut self, overrides: Overrides) {
+        match self {
+            Engine::Horizon(horizon) => horizon.set_overrides(overrides),
+            Engine::Classic(classic) => classic.set_overrides(overrides),
+        }
+    }
+
+    pub fn hold(&mut self, held: bool) {
+        match self {
+            Engine::Horizon(horizon) => horizon.hold(held),
+            Engine::Classic(classic) => classic.hold(held),
+        }
+    }
+
+    /// What follows is touched; how many moves are left.
+    pub fn stand_soon(&mut self, shown: usize) -> usize {
+        match self {
+            Engine::Horizon(horizon) => horizon.stand_soon(),
+            Engine::Classic(classic) => {
+                classic.stop();
+                shown
+            }
+        }
+    }
+
+    pub fn drive_for(&mut self, seconds: f64) -> (f64, bool) {
+        match self {
+            Engine::Horizon(horizon) => horizon.drive_for(seconds),
+            Engine::Classic(classic) => classic.drive_for(seconds),
+        }
+    }
+
+    pub fn setpoint(&self) -> Option<Setpoint> {
+        match self {
+            Engine::Horizon(horizon) => horizon.setpoint(),
+            Engine::Classic(classic) => classic.setpoint(),
+        }
+    }
+
+    pub fn is_standing(&self) -> bool {
+        match self {
+            Engine::Horizon(horizon) => horizon.is_standing(),
+            Engine::Classic(classic) => classic.is_standing(),
+        }
+    }
+
+    /// Drives the next move to its end: its time, s, and how it runs. What it asks for is `asked`, mm/s.
+    pub fn drive(&mut self, asked: f64, kept: Option<&mut Kept>) -> (f64, Pace) {
+        match self {
+            Engine::Horizon(horizon) => drive_on_the_way(horizon, kept),
+            Engine::Classic(classic) => drive_beside_it(classic, asked, kept),
+        }
+    }
+}
+
+fn drive_on_the_way(horizon: &mut Horizon, mut kept: Option<&mut Kept>) -> (f64, Pace) {
+    let asked = horizon.next_asks() as f32;
+    let mut allowed = f32::INFINITY;
+    let mut pace: Option<Pace> = None;
+    let seconds = horizon.drive_move(|way: &Way, axes_allow: f64, leg: &Leg| {
+        let (speed, end) = (leg.speed as f32, leg.at(leg.seconds).1 as f32);
+        let pace = pace.get_or_insert(Pace { asked, start: speed, ..Pace::default() });
+        pace.top = pace.top.max(speed).max(end);
+        pace.end = end;
+        if !matches!(way, Way::Blend { .. }) {
+            allowed = allowed.min(axes_allow.sqrt() as f32);
+        }
+        if let Some(kept) = &mut kept {
+            kept.stretches.push(crate::Stretch { way: *way, leg: *leg });
+        }
+    });
+    (seconds, Pace { allowed: allowed.min(asked), ..pace.unwrap_or_default() })
+}
+
+fn drive_beside_it(classic: &mut Interpolator, asked: f64, mut kept: Option<&mut Kept>) -> (f64, Pace) {
+    let mut pace = Pace { asked: asked as f32, allowed: asked as f32, ..Pace::default() };
+    let mut before = 0.0;
+    let seconds = classic.drive_move(|spell| {
+        pace.top = pace.top.max(spell.speed as f32);
+        if let Some(kept) = &mut kept {
+            for part in 0..=KEPT_OF_A_SPELL {
+                let at = spell.seconds * f64::from(part) / f64::from(KEPT_OF_A_SPELL);
+                kept.samples.push(Sample { seconds: before + at, setpoint: spell.at(at) });
+            }
+        }
+        before += spell.seconds;
+    });
+    (seconds, pace)
+}
