@@ -87,6 +87,12 @@ impl Offsetting {
         self.pieces.is_open() && self.pieces.next(upstream.current(), position, shaped)
     }
 
+    /// A program begins: its blocks are counted anew, and none of them has been run.
+    pub fn begin_program(&mut self) {
+        (self.block, self.part) = (u64::MAX, 0);
+        self.ways.iter_mut().for_each(|way| way.is_ended = false);
+    }
+
     /// Takes the interpreter's operation.
     ///
     /// # Errors

@@ -43,6 +43,15 @@ impl Path {
         self.open = false;
     }
 
+    /// The programmed place of a tool that stands at `position` (mm, degrees), behind a block that is done.
+    pub fn programmed(&self, position: &Point) -> Point {
+        if !self.offsetting.is_on() {
+            return *position;
+        }
+        let (axes, vector) = self.offsetting.vector();
+        moved(*position, (axes, vector.map(|way| -way)))
+    }
+
     /// Answers the interpreter's open barrier.
     ///
     /// # Errors
@@ -92,6 +101,9 @@ impl Path {
                         return Pull::Barrier(barrier);
                     }
                 }
+            }
+            if matches!(upstream.current().act, Act::Start(_)) {
+                offsetting.begin_program();
             }
             let is_shape = shape(upstream.current(), offsetting, position, shaped);
             *open = shaped.closes;

@@ -267,10 +267,7 @@ impl<L: Library> Session<L> {
     /// Chooses the program to run, which begins at `head` in its text.
     pub fn select(&mut self, source: base::SourceId, name: &str, head: syntax::Cursor) {
         self.come_back();
-        let (position, refused) = (self.counted_position(), self.alarm.is_some());
-        // What was read ahead of an alarm or of a program broken off was never executed.
-        self.interpreter_mut().restore(&position, refused);
-        self.motion.upstream.stand_at(&position);
+        self.leave_program();
         self.interpreter_mut().select_at(source, name, head);
         self.pulled = false;
         self.between_blocks = true;

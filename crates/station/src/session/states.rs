@@ -123,6 +123,19 @@ impl<L: Library> Session<L> {
         self.tell(place, EventKind::Reset { cause, groups });
     }
 
+    /// Another program takes the place of this one. What was read ahead of an alarm or of a program broken off was never
+    /// executed; of a program that has ended nothing is left but the codes in force and, under compensation, the tool
+    /// beside its programmed place.
+    pub(super) fn leave_program(&mut self) {
+        let (mut position, refused) = (self.counted_position(), self.alarm.is_some());
+        if self.ended && !refused {
+            position = self.motion.upstream.programmed(&position);
+        } else {
+            self.motion.upstream.stand_at(&position);
+        }
+        self.interpreter_mut().restore(&position, refused);
+    }
+
     /// LABEL SKIP, as the table of states says.
     fn look_for_label(&mut self, occasion: Occasion) {
         let interpreter = self.interpreter();

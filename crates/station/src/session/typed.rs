@@ -68,9 +68,7 @@ impl<L: Library> Session<L> {
     /// The program in memory is selected again, where it was left.
     pub fn come_back(&mut self) {
         let Some((pointer, rewound)) = self.typed.waiting.take() else { return };
-        let position = self.counted_position();
-        let refused = self.alarm.is_some();
-        self.interpreter_mut().restore(&position, refused);
+        self.leave_program();
         self.rewound = rewound;
         if let Some(pointer) = pointer {
             self.interpreter_mut().go_back_to(pointer);
