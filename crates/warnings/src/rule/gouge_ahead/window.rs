@@ -143,16 +143,19 @@ impl Window {
         let slot = &mut self.boxes[index / BOXED as usize];
         *slot = if number.is_multiple_of(BOXED) { extent } else { slot.with(&extent) };
         let until = self.chain.begin().min(self.next);
-        if self.begin() >= until {
-            return false;
+        if self.begin() < until {
+            let is_clear = self.is_clear(&extent, until);
+            debug_assert_eq!(is_clear, self.near(&extent, radius, until).next().is_none(), "what is far is far");
+            if !is_clear {
+                self.compared = until;
+                return self.close(number);
+            }
         }
-        let is_clear = self.is_clear(&extent, until);
-        debug_assert_eq!(is_clear, self.near(&extent, radius, until).next().is_none(), "what is far is far");
-        if is_clear {
-            return false;
+        let closes = self.closes_on_itself(number);
+        if closes {
+            self.close_from(number, number);
         }
-        self.compared = until;
-        self.close(number)
+        closes
     }
 
     /// True if the latest move has come near to others.
@@ -285,8 +288,7 @@ impl Window {
     /// behind it lead to the contour and away from it.
     fn close(&mut self, number: u64) -> bool {
         let Some(element) = self.element(number) else { return false };
-        let itself = element.turn.is_some() && distance(element.from, element.to) <= LEAST_MM;
-        let mut met = itself.then_some((number, element.to));
+        let mut met = self.closes_on_itself(number).then_some((number, element.to));
         for other in self.near(&element.extent(), LEAST_MM, self.compared) {
             let Some(earlier) = self.element(other).filter(|_| other >= self.first_element && other != number) else {
                 continue;
@@ -309,9 +311,21 @@ impl Window {
             self.trim(number, |element| element.before(place));
             self.trim(other, |element| element.behind(place));
         }
-        self.first_element = other;
-        self.next_cutter = number + 1;
+        self.close_from(other, number);
         true
+    }
+
+    /// True for a full circle.
+    #[inline]
+    fn closes_on_itself(&self, number: u64) -> bool {
+        let Way { element, has_element, .. } = self.entry(number);
+        *has_element && element.is_arc && distance(element.ends[0], element.ends[1]) <= LEAST_MM
+    }
+
+    /// The contour is closed from an element to the end of the latest one.
+    fn close_from(&mut self, first: u64, last: u64) {
+        self.first_element = first;
+        self.next_cutter = last + 1;
     }
 
     fn trim(&mut self, number: u64, trim: impl FnOnce(&Curve) -> Curve) {
