@@ -2,7 +2,7 @@
 
 use base::{AXES, Place, Point};
 use meaning::{Element, Interpreter};
-use path::plane::{Vector, cross, distance, dot, in_plane, less};
+use path::plane::{Vector, cross, distance, dot, in_plane, length, less};
 use path::{Arc, Corner, Curve, Extent, Part, RunBeside, Turn};
 
 /// A count in mm.
@@ -41,6 +41,8 @@ pub(crate) struct Way {
     pub beside: bool,
     /// How it cuts into its own element and the last one is said by another rule.
     pub claimed: bool,
+    /// It begins where the tool stopped without having seen its element.
+    pub blind: bool,
 }
 
 /// From here to there, and how it turns, if it is an arc. That stands elsewhere: most ways are lines, and what is touched
@@ -65,6 +67,19 @@ impl Way {
     #[inline]
     pub fn element(&self, turns: &Turns) -> Option<Curve> {
         self.has_element.then(|| self.element.curve(&turns[1]))
+    }
+
+    /// True if the tool stands beside its element's beginning by its radius, but not square to it: square to the element
+    /// before, as it does where no next one is seen. Within `least` mm.
+    #[inline]
+    pub fn begins_blind(&self, turns: &Turns, least: f64) -> bool {
+        if self.beside {
+            return false;
+        }
+        let Some(element) = self.element(turns) else { return false };
+        let out = less(self.centre.ends[0], element.from);
+        let [begins, _] = element.directions();
+        (length(out) - self.radius).abs() <= least && dot(out, begins).abs() > least * length(begins)
     }
 }
 

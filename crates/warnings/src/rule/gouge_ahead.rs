@@ -46,6 +46,8 @@ struct Hit {
     pair: [u64; 2],
     cutter: (Place, u64, Option<Part>),
     element: Place,
+    /// The control had not seen the element that begins there.
+    blind: bool,
 }
 
 /// Hits beside each other: the deepest and the latest, and the moves and elements so far.
@@ -170,8 +172,9 @@ fn note(open: &mut Vec<Gouge>, hit: Hit, letters: [char; 2], found: &mut Found) 
 fn tell(hit: &Hit, letters: [char; 2], found: &mut Found) {
     let (place, block, part) = hit.cutter;
     let shade = match part {
-        Some(Part::Start) => "start",
         None => "end",
+        _ if hit.blind => "blind",
+        Some(Part::Start) => "start",
         _ => "",
     };
     found.say(Rule::GougeAhead, &place, || {

@@ -119,6 +119,7 @@ impl Window {
         if way.part.is_none() {
             way.radius = self.radius;
         }
+        way.blind = way.begins_blind(turns, LEAST_MM);
         let radius = way.radius;
         if crosses_the_path(way, turns, self.corner) {
             return false;
@@ -360,6 +361,8 @@ impl Window {
             pair,
             cutter: (cutter.place, cutter.block, cutter.part),
             element: cut.place,
+            // Standing there the tool cuts what comes; going on from there, whatever lies in its way.
+            blind: cutter.blind || cut.blind && self.count_at(pair[0]) + 1 == self.count_at(pair[1]),
         })
     }
 }
