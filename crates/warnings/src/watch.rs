@@ -125,7 +125,11 @@ impl Watch {
             }
             EventKind::Feed { from, to, .. } => self.way(&event.place, (from, to, None), beside, interpreter),
             EventKind::Arc { arc, .. } => self.way(&event.place, (&arc.from, &arc.to, Some(arc)), beside, interpreter),
-            EventKind::Start(_) => self.corner.begin(),
+            EventKind::Start(_) => {
+                // The contour of the piece before is cut.
+                self.break_off();
+                self.corner.begin();
+            }
             EventKind::Alarm(_) => {
                 self.refused = true;
                 self.doubtful = true;

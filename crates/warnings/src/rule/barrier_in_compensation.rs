@@ -57,7 +57,8 @@ impl BarrierInCompensation {
         self.flush(found);
         let code = look.code_name(look.control.roles.compensation);
         let ends = matches!(command.finish, Finish::End(_));
-        let finding = Finding::new(Rule::BarrierInCompensation, "", command, At::M(number))
+        let shade = if ends { "end" } else { "" };
+        let finding = Finding::new(Rule::BarrierInCompensation, shade, command, At::M(number))
             .with("code", code)
             .labelled(if ends { "the way to here ends square" } else { "nothing behind it is read yet" });
         if ends {

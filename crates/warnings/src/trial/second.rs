@@ -41,9 +41,11 @@ pub fn second_piece<L: Library>(
 fn left_over(interpreter: &Interpreter, before: &State, after: &State, inherited: u32) -> String {
     let control = interpreter.control();
     let mut left = Vec::new();
-    for (group, bit) in groups(control) {
+    let offsets = [control.roles.length, control.roles.compensation];
+    let rests_on = groups(control).into_iter().filter(|(_, bit)| *bit != state::LENGTH && inherited & bit != 0);
+    for group in rests_on.map(|(group, _)| group).chain(offsets) {
         let (was, is) = (before.groups.0[group], after.groups.0[group]);
-        if was != is && (inherited & bit != 0 || bit == state::LENGTH) {
+        if was != is {
             left.push(format!("{} in place of {}", control.g_name(is), control.g_name(was)));
         }
     }
