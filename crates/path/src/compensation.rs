@@ -184,7 +184,8 @@ impl Compensation {
         if !is_ended && !end_of(now, next, end) {
             if !self.doubtful {
                 // Nothing meets beside an arc that is too small: that is what is wrong with it.
-                let room = next.element().map(|next| judge_room(&next.edge, [radius, next.offset.radius], &rules.table));
+                let room =
+                    next.element().map(|next| judge_room(&next.edge, [radius, next.offset.radius], &rules.table));
                 return Err((Which::Next, room.and_then(Result::err).unwrap_or(Fault::Apart)));
             }
             *end = Join::at(now.edge.normal(1, radius));

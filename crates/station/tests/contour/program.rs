@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::sync::{Arc, LazyLock};
 
 use base::Condition;
-use dialect::Control;
+use dialect::{Control, ParameterSetting};
 use machine::EventKind;
 use station::{Configuration, OffsetColumn, Session, Setup, Step};
 
@@ -102,6 +102,11 @@ const FARTHEST: i64 = 90_000_000_000;
 
 /// The program of a contour: from beside its start onto it, along it, and off its end.
 pub fn text(contour: &Contour, job: Job) -> String {
+    text_with(contour, job, |_| "")
+}
+
+/// The same with these words in the elements' blocks.
+pub fn text_with(contour: &Contour, job: Job, words: impl Fn(usize) -> &'static str) -> String {
     let (plane, letters, centers, third) = PLANES[job.plane];
     let forms = contour.forms();
     let (first, last) = (&forms[0], &forms[forms.len() - 1]);
@@ -129,7 +134,7 @@ pub fn text(contour: &Contour, job: Job) -> String {
     let begin = contour.elements[0].from;
     let _ = writeln!(text, "G01{}F{}", way(start, begin), if job.inch { "5." } else { "127." });
     for (index, element) in contour.elements.iter().enumerate() {
-        let mut end = way(element.from, element.to);
+        let mut end = way(element.from, element.to) + words(index);
         if job.beside == Beside::Third {
             let _ = write!(end, "{third}-{}.{}", index / 10, index % 10);
         }
@@ -247,8 +252,20 @@ impl Bench {
         Bench { configuration: configuration.expect("the set-up fits"), column }
     }
 
+    /// One whose M95 mirrors the first axis.
+    pub fn mirroring() -> Bench {
+        let setting = ParameterSetting { name: "6000".to_owned(), bit: None, value: "00000001".to_owned() };
+        let parameters = vec![setting];
+        Bench::with(control(), Setup { parameters, ..Setup::default() })
+    }
+
+    /// What stands in number 2 of the offset memory, mm.
+    pub fn set_second_offset(&mut self, offset: f64) {
+        self.configuration.set_offset(self.column, 2, offset).expect("the offset is allowed");
+    }
+
     /// Runs a text with this offset in number 1.
-    fn run_text(&mut self, text: &str, job: Job, elements: i64) -> Run {
+    pub fn run_text(&mut self, text: &str, job: Job, elements: i64) -> Run {
         self.configuration.set_offset(self.column, 1, job.offset).expect("the offset is allowed");
         let mut session = Session::new(self.configuration.clone(), Texts::one(text));
         select(&mut session, 0);
