@@ -4,6 +4,7 @@
 //! never know: a clock, a file, what any control's codes mean. A machine with real axes is another [`Machine`].
 
 mod area;
+mod drives;
 mod event;
 mod file;
 mod kinematics;
@@ -11,6 +12,7 @@ mod path_table;
 mod travel;
 mod virtual_machine;
 
+pub use drives::Drives;
 pub use event::{Event, EventKind, ResetCause, StopCause};
 pub use file::{CodeTimes, MachineAxis, MachineFile, Wiring, builtin_machine, builtin_machines, read_machine};
 pub use path_table::PathTable;

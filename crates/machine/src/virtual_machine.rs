@@ -6,10 +6,11 @@
 use base::{Alarm, AxisSet, Condition, Place, Point, Seconds};
 use dialect::StrokeCheck;
 use meaning::{CodeLine, CodeOut, SetValue, StrokeArea};
-use motion::Timed;
+use motion::{Setpoint, Timed};
 use path::Shape;
 
 use crate::area::{Offence, offence};
+use crate::drives::Drives;
 use crate::event::{Event, EventKind};
 use crate::file::{CodeTimes, MachineFile};
 use crate::travel::{Exit, Met, Travel, along, until};
@@ -36,6 +37,10 @@ pub trait Machine {
 
     /// Where the axes are, mm and degrees in machine coordinates.
     fn position(&self) -> &Point;
+
+    /// Where the axes shall be at this time, and how fast, once each servo period while they move and once when they have
+    /// come to stand. Positions are absolute: rounded to what a drive takes, nothing adds up.
+    fn follow(&mut self, time: Seconds, setpoint: &Setpoint);
 
     /// Whether the last move that waits for the skip signal was ended by it.
     fn was_skipped(&self) -> bool;
@@ -72,6 +77,8 @@ pub struct VirtualMachine {
     awaits: bool,
     /// Nothing moves before this time.
     hold: Seconds,
+    /// The drives, if their setpoints are wanted.
+    drives: Option<Drives>,
     /// Axes whose place is unknown: leaving their travel is not reported.
     unknown: AxisSet,
 }
@@ -96,6 +103,7 @@ impl VirtualMachine {
             pending: [None; PENDING],
             awaits: false,
             hold: Seconds(0.0),
+            drives: None,
             unknown: AxisSet::NONE,
         }
     }
@@ -134,6 +142,16 @@ impl VirtualMachine {
         }
         end[first.1] = (first.2 * 1e6).round() / 1e6;
         Some((first.0, end))
+    }
+
+    /// Setpoints are taken as drives take them: in steps of an increment, mm or degrees.
+    pub fn drive_in(&mut self, increment: f64) {
+        self.drives = Some(Drives::at(&self.position, increment));
+    }
+
+    /// What the drives have been sent, if setpoints are taken.
+    pub fn drives(&self) -> Option<&Drives> {
+        self.drives.as_ref()
     }
 
     /// True if a move that would leave the travel is refused as a whole, and not stopped at the border.
@@ -364,6 +382,12 @@ impl Machine for VirtualMachine {
 
     fn position(&self) -> &Point {
         &self.position
+    }
+
+    fn follow(&mut self, time: Seconds, setpoint: &Setpoint) {
+        if let Some(drives) = &mut self.drives {
+            drives.follow(time, setpoint);
+        }
     }
 
     fn was_skipped(&self) -> bool {

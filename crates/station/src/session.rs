@@ -61,6 +61,8 @@ pub struct Session<L> {
     /// Moves take their time.
     live: bool,
     under_way: Option<live::UnderWay>,
+    /// From one setpoint to the next, s.
+    servo_period: f64,
     /// No more time passes than to this one.
     deadline: Option<Seconds>,
     /// FEED HOLD has been pressed in tapping.
@@ -145,6 +147,7 @@ impl<L: Library> Session<L> {
             met: None,
             live: false,
             under_way: None,
+            servo_period: machine.limits().servo_period,
             deadline: None,
             hold_waits: false,
             tapping: false,

@@ -71,8 +71,12 @@ impl Way {
 
     /// True if the tool stands beside its element's beginning by its radius, but not square to it: square to the element
     /// before, as it does where no next one is seen. Within `least` mm.
+    #[inline]
     pub fn begins_blind(&self, turns: &Turns, least: f64) -> bool {
-        let Some(element) = self.element(turns).filter(|_| !self.beside) else { return false };
+        if self.beside {
+            return false;
+        }
+        let Some(element) = self.element(turns) else { return false };
         let out = less(self.centre.ends[0], element.from);
         let [begins, _] = element.directions();
         (length(out) - self.radius).abs() <= least && dot(out, begins).abs() > least * length(begins)

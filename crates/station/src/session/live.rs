@@ -4,7 +4,7 @@
 //! Dwells and the machine's answers to codes pass as a whole; nothing of the operator's changes them.
 
 use base::{AXES, Point, Seconds};
-use machine::{Machine, StopCause};
+use machine::{Drives, Machine, StopCause};
 use motion::Setpoint;
 use path::Shape;
 
@@ -114,8 +114,26 @@ impl<L: Library> Session<L> {
         }
     }
 
-    /// Drives the move under way until then, at most to its end; true if that is reached.
+    /// Drives the move under way until then, at most to its end; true if that is reached. Setpoints on the way go to the
+    /// machine, if it takes them.
     fn drive(&mut self, until: f64) -> bool {
+        if self.machine.drives().is_none() {
+            return self.drive_on(until);
+        }
+        loop {
+            let period = self.servo_period;
+            let next = ((self.time().0 / period + ON_THE_DOT).floor() + 1.0) * period;
+            let ended = self.drive_on(next.min(until));
+            if ended || next > until {
+                return ended;
+            }
+            if let Some(setpoint) = self.motion.setpoint() {
+                self.machine.follow(Seconds(next), &setpoint);
+            }
+        }
+    }
+
+    fn drive_on(&mut self, until: f64) -> bool {
         let Some(under_way) = &mut self.under_way else { return true };
         let seconds = (until - self.machine.time().0 - under_way.elapsed).max(0.0);
         let (left, ended) = self.motion.drive_for(seconds);
@@ -123,16 +141,37 @@ impl<L: Library> Session<L> {
         ended
     }
 
+    /// The axes have come to stand: the drives are sent where.
+    fn come_to_stand(&mut self) {
+        if self.machine.drives().is_some() && self.motion.is_standing() {
+            let (period, position) = (self.servo_period, *self.machine.position());
+            let next = (self.time().0 / period - ON_THE_DOT).ceil() * period;
+            self.machine.follow(Seconds(next), &Setpoint { position, velocity: [0.0; AXES] });
+        }
+    }
+
+    /// Setpoints go to the machine every servo period, in steps of `increment`, mm or degrees; [`Session::drives`] shows
+    /// what came of them.
+    pub fn drive_in(&mut self, increment: f64) {
+        self.machine.drive_in(increment);
+    }
+
+    /// What the machine's drives have been sent.
+    pub fn drives(&self) -> Option<&Drives> {
+        self.machine.drives()
+    }
+
     /// The move under way has ended.
     fn complete(&mut self) {
         let Some(UnderWay { elapsed }) = self.under_way.take() else { return };
         self.motion.end(elapsed);
         self.perform_shape();
+        self.come_to_stand();
     }
 
     /// The axes come to stand as fast as they can, from the next setpoint on; moves that end on the way are executed.
     pub(super) fn brake(&mut self) {
-        let period = self.configuration.machine.limits().servo_period;
+        let period = self.servo_period;
         if self.under_way.is_some() {
             let now = self.time().0;
             let setpoint = (now / period - ON_THE_DOT).ceil() * period;

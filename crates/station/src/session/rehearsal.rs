@@ -226,6 +226,7 @@ impl<L: Library> Session<L> {
             met: Some(VecDeque::new()),
             live: false,
             under_way: None,
+            servo_period: self.servo_period,
             deadline: None,
             hold_waits: false,
             tapping: false,

@@ -52,7 +52,8 @@ impl<L: Library> Session<L> {
         }
         if self.pull() {
             self.pulled = self.stands_still() || self.alarm.is_some();
-            if !self.pulled && !(self.live && self.takes_waiting_hold()) {
+            let held = self.pulled || self.live && self.takes_waiting_hold();
+            if !held {
                 self.execute();
             } else if self.has_told_all() {
                 return Some(Step::Idle);

@@ -119,6 +119,7 @@ impl Window {
         if way.part.is_none() {
             way.radius = self.radius;
         }
+        way.blind = way.begins_blind(turns, LEAST_MM);
         let radius = way.radius;
         if crosses_the_path(way, turns, self.corner) {
             return false;
@@ -132,8 +133,6 @@ impl Window {
             self.corner = Some(way.element.ends[1]);
             extent = extent.with(&way.element.extent(&turns[1]));
         }
-        way.blind = !way.beside && way.begins_blind(turns, LEAST_MM);
-        let closes = way.element.is_arc && way.element(turns).as_ref().is_some_and(closes_on_itself);
         self.chain.follow(number, way, turns);
         self.counts[index] = self.count;
         self.next = number + 1;
@@ -153,6 +152,7 @@ impl Window {
                 return self.close(number);
             }
         }
+        let closes = self.closes_on_itself(number);
         if closes {
             self.close_from(number, number);
         }
@@ -289,7 +289,7 @@ impl Window {
     /// behind it lead to the contour and away from it.
     fn close(&mut self, number: u64) -> bool {
         let Some(element) = self.element(number) else { return false };
-        let mut met = closes_on_itself(&element).then_some((number, element.to));
+        let mut met = self.closes_on_itself(number).then_some((number, element.to));
         for other in self.near(&element.extent(), LEAST_MM, self.compared) {
             let Some(earlier) = self.element(other).filter(|_| other >= self.first_element && other != number) else {
                 continue;
@@ -314,6 +314,13 @@ impl Window {
         }
         self.close_from(other, number);
         true
+    }
+
+    /// True for a full circle.
+    #[inline]
+    fn closes_on_itself(&self, number: u64) -> bool {
+        let Way { element, has_element, .. } = self.entry(number);
+        *has_element && element.is_arc && distance(element.ends[0], element.ends[1]) <= LEAST_MM
     }
 
     /// The contour is closed from an element to the end of the latest one.
@@ -358,11 +365,6 @@ impl Window {
             blind: cutter.blind || cut.blind && self.count_at(pair[0]) + 1 == self.count_at(pair[1]),
         })
     }
-}
-
-/// True for a full circle.
-fn closes_on_itself(element: &Curve) -> bool {
-    element.turn.is_some() && distance(element.from, element.to) <= LEAST_MM
 }
 
 /// A straight piece at a corner that leads across the contour, to the other side of it.
