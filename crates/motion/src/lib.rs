@@ -16,6 +16,7 @@ mod overrides;
 mod planner;
 mod positioning;
 mod profile;
+mod scurve;
 mod stage;
 mod way;
 
@@ -26,5 +27,6 @@ pub use limits::{AxisLimits, Classic, Limits, Model};
 pub use overrides::Overrides;
 pub use planner::{Ahead, Pace, Stretch};
 pub use profile::Trapezoid;
+pub use scurve::SCurve;
 pub use stage::{Motion, Timed};
 pub use way::Way;
