@@ -18,6 +18,7 @@ mod positioning;
 mod profile;
 mod scurve;
 mod stage;
+mod stroke;
 mod way;
 
 pub use classic::{Interpolator, Spell, SpellKind, Spent};
@@ -28,5 +29,6 @@ pub use overrides::Overrides;
 pub use planner::{Ahead, Pace, Stretch};
 pub use profile::Trapezoid;
 pub use scurve::SCurve;
+pub use stroke::Stroke;
 pub use stage::{Motion, Timed};
 pub use way::Way;
