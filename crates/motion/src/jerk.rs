@@ -1,6 +1,6 @@
 //! What the control sees of the path before it, under model `jerk`.
 //!
-//! A *run* is what lies between two stops. In it the path is rounded so that its bend is steady ([`rounding`]) and
+//! A *run* is what lies between two stops. In it the path is rounded so that its bend is steady ([`stretch`], [`rounding`]) and
 //! planned as if speed could change at a constant acceleration at once; what is driven is the mean of that plan over
 //! the last `T` seconds: `s(t) = 1/T ∫ p(τ) dτ` from `t - T` to `t`. Its speed and acceleration are then means of the
 //! plan's, and the acceleration changes by at most `2 u / T` (Biagiotti and Melchiorri, *FIR filters for online
@@ -18,15 +18,18 @@ mod bounds;
 mod drive;
 mod rounding;
 mod settle;
+mod stretch;
 
 use std::collections::VecDeque;
 
+use base::AXES;
 use meaning::Feed;
 
 use bounds::{Allowance, Bounds};
 use drive::Drive;
 use rounding::Joint;
 use settle::Zones;
+use stretch::Stretch;
 
 use crate::horizon::Move;
 use crate::limits::{AxisLimits, Limits};
@@ -93,8 +96,8 @@ pub struct JerkHorizon {
     /// What the moves of the pieces ask for, and the first one's number.
     asked: VecDeque<Asked>,
     first_move: u64,
-    /// The last move but one, while the room that it has at its end is not known; and the last one.
-    before: Option<Open>,
+    /// The lines that have not been cut, and the last move.
+    stretch: Stretch,
     last: Option<Open>,
     /// The axes stand behind the last piece.
     closed: bool,
@@ -121,7 +124,7 @@ impl JerkHorizon {
             first_way: 0,
             asked: VecDeque::new(),
             first_move: 0,
-            before: None,
+            stretch: Stretch::default(),
             last: None,
             closed: false,
             zones: Zones::default(),
@@ -138,7 +141,8 @@ impl JerkHorizon {
         self.pieces.clear();
         self.ways.clear();
         self.asked.clear();
-        (self.before, self.last) = (None, None);
+        self.stretch.begin(0.0, 0, 0.0);
+        self.last = None;
         self.closed = false;
         self.zones.clear();
         (self.settled, self.goal, self.ready) = (0, 0, false);
@@ -163,12 +167,15 @@ impl JerkHorizon {
         self.ready = false;
         let mut open = Open { way: next.way, mover, start: Joint::Rest };
         if let Some(last) = self.last.take() {
-            open.start = self.join(last, &open);
+            open.start = self.join(&last, &open);
         }
         if open.start == Joint::Rest {
             self.window = self.wanted_window(&open);
         }
         self.last = Some(open);
+        if open.way.is_straight() {
+            self.add_line(&open);
+        }
         if next.stops {
             self.stop();
         }
@@ -184,68 +191,74 @@ impl JerkHorizon {
     /// The run ends with the last move.
     fn end_run(&mut self) {
         if let Some(last) = self.last.take() {
-            self.end_way(last, Joint::Rest);
+            self.end_way(&last, &Joint::Rest);
         }
     }
 
     /// Ends one way, with the joint to the next: what that is.
-    fn join(&mut self, mut last: Open, next: &Open) -> Joint {
+    fn join(&mut self, last: &Open, next: &Open) -> Joint {
         let speed = self.hardest(last.mover).min(self.hardest(next.mover));
         let joint = if self.wanted_window(next) > TOO_SHORT * self.window {
             Joint::Rest
         } else {
             rounding::joint(&self.limits, &last.way, &next.way, speed)
         };
-        if let Joint::Hat(..) = joint {
-            // How wide it is depends on how the next way ends.
-            last.start = self.settle_hat(&last, &joint);
-            self.before = Some(last);
-            return joint;
+        let straight = last.way.is_straight() && next.way.is_straight();
+        if joint == Joint::Rest || !straight {
+            self.end_way(last, &joint);
         }
-        self.end_way(last, joint);
         if let Joint::Arms(arm) = joint {
-            self.push_arms(&last, next, arm);
+            self.push_arms(last, next, arm);
         }
         joint
     }
 
-    fn end_way(&mut self, mut last: Open, end: Joint) {
-        last.start = self.settle_hat(&last, &end);
-        self.push_way(&last, &end);
-    }
-
-    /// If a way begins with a hat, its width is known now, and the way before is cut.
-    fn settle_hat(&mut self, open: &Open, end: &Joint) -> Joint {
-        let (Joint::Hat(change, width), Some(before)) = (open.start, self.before.take()) else { return open.start };
-        let room = |way: &Way, other: &Joint| way.length() - if let Joint::Arms(arm) = other { *arm } else { 0.0 };
-        let room = room(&before.way, &before.start).min(room(&open.way, end));
-        let hat = rounding::narrowed(change, width, room);
-        self.push_way(&before, &hat);
-        if hat == Joint::Rest {
-            self.window = self.wanted_window(open);
+    /// A line goes on with those before it, or begins.
+    fn add_line(&mut self, open: &Open) {
+        let (mut change, mut goes_on) = ([0.0; AXES], false);
+        match open.start {
+            Joint::Corner(by) => (change, goes_on) = (by, true),
+            Joint::Passed => goes_on = !self.stretch.is_cut(),
+            _ => {}
         }
-        hat
+        if !goes_on {
+            let arm = if let Joint::Arms(arm) = open.start { arm } else { 0.0 };
+            self.stretch.begin(self.limits.corner_tolerance, self.limits.count, arm);
+        }
+        self.stretch.add(&open.way, open.mover, change);
+        self.cut_lines();
     }
 
-    fn push_way(&mut self, open: &Open, end: &Joint) {
-        let movers = [open.mover; 2];
-        let rests = *end == Joint::Rest;
-        if open.way.is_straight() {
-            let (pieces, count) = rounding::pieces(&open.way, &open.start, end);
-            for (way, _) in &pieces[..count] {
-                self.push(way, 0.0, way.length(), movers);
+    /// Cuts the lines of which enough is known.
+    fn cut_lines(&mut self) {
+        let mut stretch = std::mem::take(&mut self.stretch);
+        while let Some(mover) = stretch.cut() {
+            for way in stretch.pieces() {
+                self.push(way, 0.0, way.length(), [mover; 2]);
             }
-        } else {
-            let arm = |joint: &Joint| if let Joint::Arms(arm) = joint { *arm } else { 0.0 };
-            let from = arm(&open.start);
-            self.push(&open.way, from, open.way.length() - arm(end) - from, movers);
+            if let Some(piece) = self.pieces.back_mut() {
+                piece.ends = true;
+            }
         }
-        let stroke = rests && open.start == Joint::Rest && open.way.is_straight();
+        self.stretch = stretch;
+    }
+
+    fn end_way(&mut self, last: &Open, end: &Joint) {
+        let arm = |joint: &Joint| if let Joint::Arms(arm) = joint { *arm } else { 0.0 };
+        if last.way.is_straight() {
+            self.stretch.end(arm(end));
+            self.cut_lines();
+        } else {
+            let from = arm(&last.start);
+            self.push(&last.way, from, last.way.length() - arm(end) - from, [last.mover; 2]);
+        }
+        let stops = *end == Joint::Rest;
+        let stroke = stops && last.start == Joint::Rest && last.way.is_straight() && self.stretch.is_single();
         if let Some(piece) = self.pieces.back_mut() {
             // Half of the arms belongs to the move.
-            (piece.ends, piece.stops, piece.stroke) = (!matches!(end, Joint::Arms(_)), rests, stroke);
+            (piece.ends, piece.stops, piece.stroke) = (!matches!(end, Joint::Arms(_)), stops, stroke);
         }
-        if rests {
+        if stops {
             self.zones.clear();
         }
     }
@@ -276,7 +289,11 @@ impl JerkHorizon {
     fn push_on(&mut self, way: &Way, from: f64, length: f64, movers: [u64; 2]) {
         let asked = self.hardest(movers[0]).min(self.hardest(movers[1]));
         let bounds = Bounds::of(way, self.limits.count);
-        let Allowance { fastest, push } = bounds.allow(&self.limits, self.rate(movers[0]), asked, self.window);
+        let Allowance { mut fastest, push } = bounds.allow(&self.limits, self.rate(movers[0]), asked, self.window);
+        // What the plan counts on before it knows: see `settle.rs`.
+        if self.limits.axes[..self.limits.count].iter().all(|axis| push < self.floor(axis)) {
+            fastest = fastest.min(push * self.window / 2.0);
+        }
         let piece = Piece {
             way: self.first_way + self.ways.len() as u64 - 1,
             from,

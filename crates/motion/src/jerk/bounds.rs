@@ -2,7 +2,7 @@
 //!
 //! With `v = ds/dt`, `u = dv/dt` and `w = du/dt` an axis moves with `q' v`, accelerates by `q' u + q'' v²` and jerks by
 //! `q' w + 3 q'' v u + q''' v³`. Here the largest of `|q'|`, `|q''|`, `|q'''|` on the stretch stand for them. Where a way
-//! is bent `u` first gets what changes the speed by itself within a window, at most [`PUSH`] of what it would have on a
+//! is bent `u` first gets what changes the speed by itself in half a window, at most [`PUSH`] of what it would have on a
 //! straight one; the speed gets the rest, and `u` again what that leaves.
 
 use base::{AXES, Point};
@@ -11,7 +11,7 @@ use crate::limits::{AxisLimits, Limits};
 use crate::way::Way;
 
 /// The part of the acceleration that is kept for changes of speed where the way is bent, at most.
-const PUSH: f64 = 0.3;
+pub const PUSH: f64 = 0.3;
 /// Steps of Newton's method for the speed at which the jerk is reached; they come from above, squaring the error.
 const STEPS: usize = 8;
 /// The part of a limit that rounding may take.
@@ -95,7 +95,7 @@ impl Bounds {
     fn share(&self, limits: &Limits, window: f64, allowance: &mut Allowance) {
         let asked = allowance.fastest;
         self.slow_down(limits, window, 0.0, allowance);
-        let push = (allowance.push * PUSH).min(allowance.fastest / window);
+        let push = (allowance.push * PUSH).min(2.0 * allowance.fastest / window);
         allowance.fastest = asked;
         self.slow_down(limits, window, push, allowance);
         let mut left = f64::INFINITY;

@@ -1,14 +1,8 @@
 //! Corners and jumps of curvature under a limit of jerk: how they are rounded so that the bend of the way is steady.
 //!
-//! *Between lines.* A polygon is a curve whose bend is `Δ` times an impulse at each corner. Each impulse is made a hat of
-//! the same area, `w` wide on either side: `q'' = Δ (w - |s|) / w²`, so that the way leaves the polygon by
-//! `Δ (w - |s|)³ / 6w²`, at most `|Δ| w / 6`, and only within `w`. The hats of neighbouring corners may overlap up to the next
-//! corner: their deviations then add up to no more than the larger one's (`(1 - t)³ + t³ ≤ 1`). With chords of equal
-//! length this is the cubic B-spline over the corners.
-//!
-//! *Beside arcs.* Three cubics of equal length, from an arm's length before the joint to the same length behind it,
-//! meet place, slope and bend of both ways. Where the direction does not jump, a jump `k` of the bend is left by only
-//! about `0.003 k arm²`.
+//! Lines are rounded together ([`stretch`](super::stretch)). Beside arcs three cubics of equal length, from an arm's length
+//! before the joint to the same length behind it, meet place, slope and bend of both ways. Where the direction does not
+//! jump, a jump `k` of the bend is left by only about `0.003 k arm²`.
 
 use base::{AXES, Point};
 
@@ -22,8 +16,8 @@ pub enum Joint {
     Rest,
     /// The ways go over into each other.
     Passed,
-    /// A corner between lines: how the direction changes, and the width of its hat, mm.
-    Hat(Point, f64),
+    /// A corner between lines: how the direction changes.
+    Corner(Point),
     /// Three cubics on arms of this length, mm.
     Arms(f64),
 }
@@ -32,10 +26,10 @@ pub enum Joint {
 const REVERSAL: f64 = -0.866;
 /// The part of an axis' jerk which a jump within one servo period may take and still counts as none.
 const UNNOTICED: f64 = 2e-4;
-/// The narrowest hat and the shortest arm, mm; a corner without room for it is a stop.
-const NARROWEST: f64 = 1e-6;
+/// The shortest line that is rounded and the shortest arm, mm; a corner without room for it is a stop.
+const SHORTEST: f64 = 1e-6;
 /// The part of the tolerance that is used: deviations of arms are looked at in samples.
-const USED: f64 = 0.95;
+pub const USED: f64 = 0.95;
 /// By how much of arm times change of direction, and of the arm's square times change of bend, three cubics leave the way.
 const BY_TURN: f64 = 0.19;
 const BY_BEND: f64 = 0.0035;
@@ -45,7 +39,7 @@ const WIDEST: f64 = 0.5;
 const SAMPLES: usize = 8;
 const TRIES: usize = 12;
 
-/// The joint of two ways driven at no more than `speed`; a hat is as wide as the tolerance allows.
+/// The joint of two ways driven at no more than `speed`.
 pub fn joint(limits: &Limits, before: &Way, after: &Way, speed: f64) -> Joint {
     let count = limits.count;
     let end = before.length();
@@ -69,15 +63,10 @@ pub fn joint(limits: &Limits, before: &Way, after: &Way, speed: f64) -> Joint {
     }
     let (turn, jump) = (norm(&change, count), norm(&jump, count));
     if before.is_straight() && after.is_straight() {
-        return Joint::Hat(change, USED * 6.0 * limits.corner_tolerance / turn);
+        let short = before.length().min(after.length()) < SHORTEST;
+        return if short { Joint::Rest } else { Joint::Corner(change) };
     }
     arms(limits, before, after, turn, jump)
-}
-
-/// The hat, if there is so much room on either side.
-pub fn narrowed(change: Point, width: f64, room: f64) -> Joint {
-    let width = width.min(room);
-    if width > NARROWEST { Joint::Hat(change, width) } else { Joint::Rest }
 }
 
 fn arms(limits: &Limits, before: &Way, after: &Way, turn: f64, jump: f64) -> Joint {
@@ -87,7 +76,7 @@ fn arms(limits: &Limits, before: &Way, after: &Way, turn: f64, jump: f64) -> Joi
     let estimate = 2.0 * tolerance / (linear + (linear * linear + 4.0 * BY_BEND * jump * tolerance).sqrt());
     let mut arm = estimate.min(longest(before)).min(longest(after));
     for _ in 0..TRIES {
-        if arm <= NARROWEST {
+        if arm <= SHORTEST {
             break;
         }
         let left = deviation(before, after, arm, limits.count);
@@ -147,57 +136,6 @@ pub fn cubics(before: &Way, after: &Way, arm: f64) -> [Way; 3] {
         (place, slope, bend) = (way.at(h), way.slope(h), way.bend(h));
         way
     })
-}
-
-/// A line between two joints, cut where hats end: each piece, and where it ends on the line.
-pub fn pieces(way: &Way, start: &Joint, end: &Joint) -> ([(Way, f64); 3], usize) {
-    let mut pieces = ([(*way, way.length()); 3], 0);
-    let Way::Line { from, along, length } = way else { return pieces };
-    let begin = if let Joint::Arms(arm) = start { *arm } else { 0.0 };
-    let stop = if let Joint::Arms(arm) = end { length - arm } else { *length };
-    let rises = if let Joint::Hat(_, width) = start { *width } else { 0.0 };
-    let falls = if let Joint::Hat(_, width) = end { length - width } else { *length };
-    let mut at = begin;
-    for cut in [rises.min(falls), rises.max(falls), stop] {
-        let cut = cut.min(stop);
-        // Nothing is cut off that rounding may have left.
-        if cut - at <= length * 1e-9 {
-            continue;
-        }
-        let mut terms = [std::array::from_fn(|axis| from[axis] + along[axis] * at), *along, [0.0; AXES], [0.0; AXES]];
-        let middle = (at + cut) / 2.0;
-        if let Joint::Hat(change, width) = start
-            && middle < *width
-        {
-            add_cube(&mut terms, change, width - at, -1.0, *width);
-        }
-        if let Joint::Hat(change, width) = end
-            && middle > falls
-        {
-            add_cube(&mut terms, change, at - falls, 1.0, *width);
-        }
-        let piece = if middle < rises || middle > falls {
-            Way::Blend { terms, length: cut - at }
-        } else {
-            Way::Line { from: terms[0], along: *along, length: cut - at }
-        };
-        pieces.0[pieces.1] = (piece, cut);
-        pieces.1 += 1;
-        at = cut;
-    }
-    pieces
-}
-
-/// Adds `change (rest + sign s)³ / 6 width²`.
-fn add_cube(terms: &mut [Point; 4], change: &Point, rest: f64, sign: f64, width: f64) {
-    let each = 1.0 / (6.0 * width * width);
-    for axis in 0..AXES {
-        let part = change[axis] * each;
-        terms[0][axis] += part * rest * rest * rest;
-        terms[1][axis] += part * 3.0 * rest * rest * sign;
-        terms[2][axis] += part * 3.0 * rest;
-        terms[3][axis] += part * sign;
-    }
 }
 
 #[cfg(test)]
@@ -264,32 +202,12 @@ mod tests {
     }
 
     #[test]
-    fn hats_round_a_polygon_with_a_steady_bend() {
-        let corners = [point(0.0, 0.0), point(1.0, 0.0), point(1.9, 0.3), point(2.0, 1.5), point(2.0, 4.0)];
-        let lines: Vec<Way> = corners.windows(2).map(|pair| Way::line(&pair[0], &pair[1], 2)).collect();
-        let mut joints = vec![Joint::Rest];
-        for pair in lines.windows(2) {
-            let Joint::Hat(change, width) = joint(&limits(), &pair[0], &pair[1], 100.0) else { panic!("a corner") };
-            let room = pair[0].length().min(pair[1].length());
-            joints.push(narrowed(change, width * 100.0, room));
-        }
-        joints.push(Joint::Rest);
-        let mut ways = Vec::new();
-        for (index, line) in lines.iter().enumerate() {
-            let (pieces, count) = pieces(line, &joints[index], &joints[index + 1]);
-            assert_eq!(pieces[count - 1].1, line.length());
-            ways.extend(pieces[..count].iter().map(|piece| piece.0));
-        }
-        steady(&ways);
-    }
-
-    #[test]
     fn reversals_and_a_tolerance_of_none_are_stops() {
         let (there, back) =
             (Way::line(&point(0.0, 0.0), &point(5.0, 0.0), 2), Way::line(&point(5.0, 0.0), &point(0.0, 0.1), 2));
         assert_eq!(joint(&limits(), &there, &back, 10.0), Joint::Rest);
         let aside = Way::line(&point(5.0, 0.0), &point(5.0, 5.0), 2);
-        assert!(matches!(joint(&limits(), &there, &aside, 10.0), Joint::Hat(..)));
+        assert!(matches!(joint(&limits(), &there, &aside, 10.0), Joint::Corner(_)));
         assert_eq!(joint(&Limits { corner_tolerance: 0.0, ..limits() }, &there, &aside, 10.0), Joint::Rest);
     }
 }

@@ -2,12 +2,17 @@
 //! kept to.
 //!
 //! A zone never reaches farther back than what can be driven in one window at the speeds allowed there, for the mean
-//! looks no farther. So bounds are final as soon as the way behind them takes a window, and speeds as in
+//! looks no farther. So bounds are final as soon as the way behind them takes a window. Of those that are not it is known
+//! how low they can become: what is yet to come reaches a place `d` before its beginning only if it allows `c ≥ 2 d / T`,
+//! and then it also allows an acceleration of `2 c / T`, or of a floor (`bounds.rs`). The plan is made for the least, and
+//! for rest where nothing more is known; so whatever comes, it can be kept to. Speeds are final as in
 //! [`Horizon`](crate::Horizon): from a piece on whose own bounds hold them.
 
 use std::collections::VecDeque;
 
+use super::bounds::PUSH;
 use super::{JerkHorizon, MOST_PIECES, Piece};
+use crate::limits::AxisLimits;
 
 /// Pieces that are looked at together at least.
 const BATCH: usize = 64;
@@ -17,6 +22,8 @@ const MOST_CUTS: usize = 4;
 const NOTHING: f64 = 1e-9;
 /// By how much zones are wider than they must be, for rounding.
 const WIDER: f64 = 1.0 + 1e-6;
+/// The part of the acceleration that is left where a rounded way is steeper than those that it joins.
+const STEEPER: f64 = 0.8;
 /// A piece is cut by a zone that leaves at least this part of it free.
 const WORTH_A_CUT: f64 = 0.2;
 
@@ -191,21 +198,43 @@ impl JerkHorizon {
     pub(super) fn settle(&mut self) {
         let seen = self.pieces.len();
         let mut final_from = if self.closed { seen } else { self.settled };
-        // The time that the way behind takes at least.
-        let mut behind = 0.0;
+        let floor =
+            self.limits.axes[..self.limits.count].iter().map(|axis| self.floor(axis)).fold(f64::INFINITY, f64::min);
+        // Whether more is to come, how far off and, at least, how long.
+        let (mut open, mut way, mut behind) = (!self.closed, 0.0, 0.0);
         for index in (self.settled..seen).rev() {
             let end = self.end_of(index);
             let piece = &mut self.pieces[index];
-            let allowed = piece.allowed();
-            piece.most = allowed.min(end + 2.0 * piece.push * piece.length);
-            if final_from <= index && (piece.stops || (behind >= piece.window * WIDER * WIDER && piece.most >= allowed))
-            {
+            open &= !piece.stops;
+            let (allowed, window) = (piece.allowed(), piece.window * WIDER * WIDER);
+            let gain = if open && behind < window {
+                let push = piece.push.min(floor);
+                least_gain(push, piece.window, way + piece.length) - least_gain(push, piece.window, way)
+            } else {
+                2.0 * piece.push * piece.length
+            };
+            piece.most = allowed.min(end + gain);
+            if final_from <= index && (piece.stops || (behind >= window && piece.most >= allowed)) {
                 final_from = index + 1;
             }
+            way += piece.length;
             behind += piece.length / piece.fastest;
         }
         self.settled = final_from.max(self.settled);
     }
+
+    /// What no piece allows less of along the way, unless it says so by its speed.
+    pub(super) fn floor(&self, axis: &AxisLimits) -> f64 {
+        STEEPER * PUSH * axis.acceleration.min(axis.jerk * self.window / 2.0)
+    }
+}
+
+/// The squared speed from which the plan comes to rest in a distance, whatever is yet to come: its acceleration is
+/// `4 d / T²` at a distance of `d`, but no more than `push`.
+fn least_gain(push: f64, window: f64, way: f64) -> f64 {
+    let each = 4.0 / (window * window);
+    let near = way.min(push / each);
+    each * near * near + 2.0 * push * (way - near)
 }
 
 impl Piece {
