@@ -127,6 +127,25 @@ impl Way {
             Way::Blend { terms: [_, _, c, d], .. } => std::array::from_fn(|axis| 2.0 * c[axis] + 6.0 * s * d[axis]),
         }
     }
+
+    /// `q'''`: how the bend changes for each mm of `s`.
+    pub fn twist(&self, s: f64) -> Point {
+        match self {
+            Way::Line { .. } => [0.0; AXES],
+            Way::Arc { arc, length } => {
+                let mut twist = [0.0; AXES];
+                let (growth, radius, [cos, sin]) = spoke(arc, s / length);
+                let [u, v] = plane(arc);
+                let square = arc.sweep * arc.sweep;
+                let (towards, along) = (3.0 * growth * square, radius * square * arc.sweep);
+                let cube = length * length * length;
+                twist[u] = (-towards * cos + along * sin) / cube;
+                twist[v] = (-towards * sin - along * cos) / cube;
+                twist
+            }
+            Way::Blend { terms: [_, _, _, d], .. } => d.map(|d| 6.0 * d),
+        }
+    }
 }
 
 fn plane(arc: &Arc) -> [usize; 2] {
@@ -174,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn slope_and_bend_are_the_derivatives_of_the_place() {
+    fn slope_bend_and_twist_are_the_derivatives_of_the_place() {
         for way in ways() {
             let step = way.length() * 1e-5;
             for part in 1..20 {
@@ -185,6 +204,8 @@ mod tests {
                     let bend = (after[axis] - 2.0 * at[axis] + before[axis]) / (step * step);
                     assert!((way.slope(s)[axis] - slope).abs() < 1e-7, "{way:?} {s} {axis}");
                     assert!((way.bend(s)[axis] - bend).abs() < 1e-3, "{way:?} {s} {axis}");
+                    let twist = (way.bend(s + step)[axis] - way.bend(s - step)[axis]) / (2.0 * step);
+                    assert!((way.twist(s)[axis] - twist).abs() < 1e-6, "{way:?} {s} {axis}");
                 }
             }
         }

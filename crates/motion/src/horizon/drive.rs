@@ -11,7 +11,7 @@ const CUT_ANEW: usize = 8;
 /// A rest of way shorter than this is none, mm.
 const NOTHING_LEFT: f64 = 1e-9;
 
-/// A stretch of constant acceleration along a way.
+/// A stretch along a way in which the acceleration is constant or, under model `jerk`, changes steadily.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Leg {
     /// Where on its way it begins, mm.
@@ -20,6 +20,8 @@ pub struct Leg {
     pub speed: f64,
     /// How the speed changes, mm/s².
     pub acceleration: f64,
+    /// How that changes, mm/s³.
+    pub jerk: f64,
     /// How long it takes, s.
     pub seconds: f64,
 }
@@ -27,8 +29,8 @@ pub struct Leg {
 impl Leg {
     /// The place on the way after a time, and the speed there.
     pub fn at(&self, seconds: f64) -> (f64, f64) {
-        let gained = self.acceleration * seconds;
-        (self.s + (self.speed + gained / 2.0) * seconds, self.speed + gained)
+        let (gained, bent) = (self.acceleration * seconds, self.jerk * seconds * seconds / 2.0);
+        (self.s + (self.speed + gained / 2.0 + bent / 3.0) * seconds, self.speed + gained + bent)
     }
 }
 
@@ -284,7 +286,8 @@ fn speed_up(cell: &Cell, x: f64, end: f64) -> Legs {
         let u = cell.hardest(x, end);
         let reached = (x + 2.0 * u * length).max(0.0);
         let (first, last) = (x.sqrt(), reached.sqrt());
-        legs.push(Leg { s: start, speed: first, acceleration: u, seconds: 2.0 * length / (first + last) });
+        let seconds = 2.0 * length / (first + last);
+        legs.push(Leg { s: start, speed: first, acceleration: u, seconds, ..Leg::default() });
         legs.end = Some(reached);
         return legs;
     };
@@ -301,15 +304,17 @@ fn speed_up(cell: &Cell, x: f64, end: f64) -> Legs {
         speed: first,
         acceleration: acceleration.copysign(rising),
         seconds: (top - first).abs() / acceleration,
+        ..Leg::default()
     });
     if cruise > 0.0 {
-        legs.push(Leg { s: start + rise, speed: top, acceleration: 0.0, seconds: cruise / top });
+        legs.push(Leg { s: start + rise, speed: top, seconds: cruise / top, ..Leg::default() });
     }
     legs.push(Leg {
         s: start + length - fall,
         speed: top,
         acceleration: -acceleration,
         seconds: (top - last) / acceleration,
+        ..Leg::default()
     });
     legs.end = Some(end);
     legs
@@ -324,10 +329,10 @@ fn slow_down(cell: &Cell, x: f64) -> Legs {
     let reached = x + 2.0 * u * length;
     if reached > 0.0 {
         let seconds = 2.0 * length / (speed + reached.sqrt());
-        legs.push(Leg { s: start, speed, acceleration: u, seconds });
+        legs.push(Leg { s: start, speed, acceleration: u, seconds, ..Leg::default() });
         legs.end = Some(reached);
     } else {
-        legs.push(Leg { s: start, speed, acceleration: u, seconds: speed / -u });
+        legs.push(Leg { s: start, speed, acceleration: u, seconds: speed / -u, ..Leg::default() });
     }
     legs
 }
