@@ -59,6 +59,13 @@ pub struct Limits {
     pub servo_period: f64,
 }
 
+impl Limits {
+    /// The jerk that an axis is held to, mm/s³: none but under model `jerk`.
+    pub fn jerk_of(&self, axis: &AxisLimits) -> f64 {
+        if self.model == Model::Jerk { axis.jerk } else { f64::INFINITY }
+    }
+}
+
 impl Default for Limits {
     /// No axis, exact corners, setpoints every millisecond.
     fn default() -> Self {

@@ -1,61 +1,10 @@
-//! Positioning as it happens: every axis, or the straight line, on its own trapezoid, held and released anywhere.
+//! Positioning as it happens: every axis, or the straight line, on its own way from rest to rest, held and released
+//! anywhere.
 
 use base::{AXES, Point};
 
 use crate::horizon::Setpoint;
-
-/// A time as short as this has passed, s.
-const INSTANT_S: f64 = 1e-12;
-
-/// One coordinate on its way to rest at its end.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
-struct Runner {
-    at: f64,
-    speed: f64,
-    end: f64,
-    rate: f64,
-    acceleration: f64,
-    /// The stretches of constant acceleration still to come: acceleration, seconds.
-    legs: [(f64, f64); 3],
-}
-
-impl Runner {
-    /// Plans the fastest way from here to rest at the end; the speed is never against it.
-    fn plan(&mut self, held: bool) {
-        let direction = if self.end < self.at { -1.0 } else { 1.0 };
-        let (way, speed) = ((self.end - self.at).abs(), self.speed.abs());
-        let hard = direction * self.acceleration;
-        if held {
-            self.legs = [(-hard, speed / self.acceleration), (0.0, 0.0), (0.0, 0.0)];
-            return;
-        }
-        let squared = speed * speed;
-        let peak = (squared / 2.0 + self.acceleration * way).max(0.0).sqrt().min(self.rate);
-        let over = if speed > peak { -1.0 } else { 1.0 };
-        let (change, stop) = ((peak * peak - squared).abs(), peak * peak);
-        let cruise = (way - (change + stop) / (2.0 * self.acceleration)).max(0.0);
-        let cruising = if cruise > 0.0 { cruise / peak } else { 0.0 };
-        self.legs = [
-            (over * hard, (peak - speed).abs() / self.acceleration),
-            (0.0, cruising),
-            (-hard, peak / self.acceleration),
-        ];
-    }
-
-    fn seconds(&self) -> f64 {
-        self.legs.iter().map(|leg| leg.1).sum()
-    }
-
-    fn advance(&mut self, mut seconds: f64) {
-        for leg in &mut self.legs {
-            let spent = leg.1.min(seconds);
-            self.at += (self.speed + leg.0 * spent / 2.0) * spent;
-            self.speed += leg.0 * spent;
-            leg.1 -= spent;
-            seconds -= spent;
-        }
-    }
-}
+use crate::stroke::Stroke;
 
 /// A positioning move under way.
 #[derive(Clone, Debug)]
@@ -63,84 +12,71 @@ pub(crate) struct Positioning {
     from: Point,
     to: Point,
     /// Along the line if it is straight, else one an axis.
-    runners: [Runner; AXES],
+    strokes: [Stroke; AXES],
     straight: Option<f64>,
     count: usize,
-    held: bool,
 }
 
 impl Positioning {
-    /// Every axis at its own rate and acceleration: mm/s, mm/s².
-    pub fn by_axes(from: &Point, to: &Point, limits: impl Fn(usize) -> (f64, f64), count: usize) -> Positioning {
-        let mut runners = [Runner::default(); AXES];
-        for (axis, runner) in runners.iter_mut().enumerate().take(count) {
-            let (rate, acceleration) = limits(axis);
-            *runner = Runner { at: from[axis], end: to[axis], rate, acceleration, ..Runner::default() };
-            runner.plan(false);
-        }
-        Positioning { from: *from, to: *to, runners, straight: None, count, held: false }
+    /// Every axis at its own rate, acceleration and jerk: mm/s, mm/s², mm/s³.
+    pub fn by_axes(from: &Point, to: &Point, limits: impl Fn(usize) -> [f64; 3], count: usize) -> Positioning {
+        let strokes = std::array::from_fn(|axis| {
+            let [rate, acceleration, jerk] = if axis < count { limits(axis) } else { [1.0; 3] };
+            let way = if axis < count { (to[axis] - from[axis]).abs() } else { 0.0 };
+            Stroke::new(way, rate, acceleration, jerk)
+        });
+        Positioning { from: *from, to: *to, strokes, straight: None, count }
     }
 
-    /// Along a straight line of this length, at this rate and acceleration along it.
-    pub fn straight(from: &Point, to: &Point, length: f64, rate: f64, acceleration: f64) -> Positioning {
-        let mut runners = [Runner::default(); AXES];
-        runners[0] = Runner { end: length, rate, acceleration, ..Runner::default() };
-        runners[0].plan(false);
-        Positioning { from: *from, to: *to, runners, straight: Some(length), count: 1, held: false }
+    /// Along a straight line of this length, at this rate, acceleration and jerk along it.
+    pub fn straight(from: &Point, to: &Point, length: f64, [rate, acceleration, jerk]: [f64; 3]) -> Positioning {
+        let strokes = [Stroke::new(length, rate, acceleration, jerk); AXES];
+        Positioning { from: *from, to: *to, strokes, straight: Some(length), count: 1 }
     }
 
     /// Other rates from now on.
     pub fn set_rates(&mut self, rates: impl Fn(usize) -> f64) {
-        for index in 0..self.count {
-            self.runners[index].rate = rates(index);
-            self.runners[index].plan(self.held);
+        for (index, stroke) in self.strokes[..self.count].iter_mut().enumerate() {
+            stroke.set_speed(rates(index));
         }
     }
 
     /// The axes shall stand as soon as they can, or go on.
     pub fn hold(&mut self, held: bool) {
-        self.held = held;
-        for runner in &mut self.runners[..self.count] {
-            runner.plan(held);
+        for stroke in &mut self.strokes[..self.count] {
+            stroke.hold(held);
         }
     }
 
     /// Drives for a time: what is left of it when the end is reached, and whether it is.
     pub fn drive_for(&mut self, seconds: f64) -> (f64, bool) {
-        let needed = self.runners[..self.count].iter().map(Runner::seconds).fold(0.0, f64::max);
-        let spent = needed.min(seconds);
-        for runner in &mut self.runners[..self.count] {
-            runner.advance(spent);
-            if !self.held && runner.seconds() <= 0.0 {
-                (runner.at, runner.speed) = (runner.end, 0.0);
-            }
+        let mut left = seconds;
+        for stroke in &mut self.strokes[..self.count] {
+            left = left.min(stroke.advance(seconds));
         }
-        let ended = !self.held && needed <= seconds;
-        (if ended { seconds - spent } else { 0.0 }, ended)
+        let ended = self.strokes[..self.count].iter().all(Stroke::has_arrived);
+        (if ended { left } else { 0.0 }, ended)
     }
 
     /// True if nothing moves.
     pub fn is_standing(&self) -> bool {
-        self.runners[..self.count].iter().all(|runner| runner.legs.iter().all(|leg| leg.1 <= INSTANT_S))
+        self.strokes[..self.count].iter().all(|stroke| stroke.leg().is_none())
     }
 
     /// Where the axes are, and how fast.
     pub fn setpoint(&self) -> Setpoint {
-        let mut setpoint = Setpoint { position: self.from, velocity: [0.0; AXES] };
-        let Some(length) = self.straight else {
-            for (axis, runner) in self.runners[..self.count].iter().enumerate() {
-                (setpoint.position[axis], setpoint.velocity[axis]) = (runner.at, runner.speed);
-            }
-            return setpoint;
-        };
-        let runner = &self.runners[0];
-        if runner.at >= length {
-            return Setpoint { position: self.to, velocity: [0.0; AXES] };
-        }
+        let mut setpoint = Setpoint { position: self.to, velocity: [0.0; AXES] };
         for axis in 0..AXES {
-            let share = (self.to[axis] - self.from[axis]) / length;
-            setpoint.position[axis] += share * runner.at;
-            setpoint.velocity[axis] = share * runner.speed;
+            let way = self.to[axis] - self.from[axis];
+            let (stroke, share) = match self.straight {
+                Some(length) => (&self.strokes[0], way / length),
+                None => (&self.strokes[axis], 1.0_f64.copysign(way)),
+            };
+            if !stroke.has_arrived() {
+                let here = stroke.here();
+                setpoint.position[axis] = self.from[axis] + share * here.s;
+                setpoint.velocity[axis] = share * here.speed;
+            }
         }
         setpoint
     }
@@ -157,7 +93,12 @@ mod tests {
     }
 
     fn run() -> Positioning {
-        Positioning::by_axes(&point(0.0, 5.0), &point(100.0, -15.0), |axis| ([200.0, 100.0][axis], 500.0), 2)
+        Positioning::by_axes(
+            &point(0.0, 5.0),
+            &point(100.0, -15.0),
+            |axis| [[200.0, 100.0][axis], 500.0, f64::INFINITY],
+            2,
+        )
     }
 
     #[test]

@@ -6,11 +6,12 @@ use path::{Arc, Path, Shape, Shaped};
 
 use crate::engine::{Kept, Sample};
 use crate::horizon::{Move, Setpoint};
-use crate::limits::Limits;
+use crate::limits::{Limits, Model};
 use crate::overrides::Overrides;
 use crate::planner::{Ahead, Pace, Planner, Stretch};
 use crate::positioning::Positioning;
 use crate::profile::Trapezoid;
+use crate::scurve::SCurve;
 use crate::way::Way;
 
 /// A shape with its time.
@@ -222,9 +223,13 @@ impl Motion {
         self.positioning = Some(if limits.straight_rapid {
             let length = distance(from, to, limits.count);
             let (rate, acceleration) = along(limits, from, to, length, |axis| overrides.rapid(axis.rapid));
-            Positioning::straight(from, to, length, rate, acceleration)
+            let (jerk, _) = along(limits, from, to, length, |axis| limits.jerk_of(axis));
+            Positioning::straight(from, to, length, [rate, acceleration, jerk])
         } else {
-            let of = |axis: usize| (overrides.rapid(limits.axes[axis].rapid), limits.axes[axis].acceleration);
+            let of = |axis: usize| {
+                let limit = &limits.axes[axis];
+                [overrides.rapid(limit.rapid), limit.acceleration, limits.jerk_of(limit)]
+            };
             Positioning::by_axes(from, to, of, limits.count)
         });
     }
@@ -335,18 +340,24 @@ impl Motion {
     }
 
     fn rapid(&self, from: &Point, to: &Point) -> (f64, f64, f64) {
-        let length = distance(from, to, self.limits.count);
-        if self.limits.straight_rapid {
-            let (speed, acceleration) = along(&self.limits, from, to, length, |axis| self.overrides.rapid(axis.rapid));
-            return (Trapezoid::new(length, speed, acceleration).seconds(), length, 0.0);
+        let limits = &self.limits;
+        let length = distance(from, to, limits.count);
+        let seconds = |way: f64, rate: f64, acceleration: f64, jerk: f64| match limits.model {
+            Model::Jerk => SCurve::new(way, rate, acceleration, jerk).seconds(),
+            _ => Trapezoid::new(way, rate, acceleration).seconds(),
+        };
+        if limits.straight_rapid {
+            let (rate, acceleration) = along(limits, from, to, length, |axis| self.overrides.rapid(axis.rapid));
+            let (jerk, _) = along(limits, from, to, length, |axis| limits.jerk_of(axis));
+            return (seconds(length, rate, acceleration, jerk), length, 0.0);
         }
         let mut longest = 0.0f64;
-        for axis in 0..self.limits.count {
+        for axis in 0..limits.count {
             let way = (to[axis] - from[axis]).abs();
             if way > 0.0 {
-                let limits = &self.limits.axes[axis];
-                longest =
-                    longest.max(Trapezoid::new(way, self.overrides.rapid(limits.rapid), limits.acceleration).seconds());
+                let limit = &limits.axes[axis];
+                let rate = self.overrides.rapid(limit.rapid);
+                longest = longest.max(seconds(way, rate, limit.acceleration, limits.jerk_of(limit)));
             }
         }
         (longest, length, 0.0)
