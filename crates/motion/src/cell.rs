@@ -1,31 +1,32 @@
 //! A cell: a stretch of way over which the bounds of speed and acceleration are looked at together.
 //!
 //! With `x = v²` and `u = dv/dt`, axis `i` accelerates by `q'ᵢ u + q''ᵢ x`, which its limit holds between `-aᵢ` and
-//! `aᵢ`: a strip of the plane of `x` and `u`. Within a cell `u` is constant, so `x` grows by `2 u s`; the strips of the
-//! cell's start and of its end make a convex figure round the origin. [`Cell::most_before`] is its highest `x` from
-//! which the next cell can be entered as slowly as it asks, [`Cell::hardest`] its largest `u`. This is the
-//! reachability analysis of Pham and Pham (TOPP-RA, IEEE T-RO 2018), one linear program of two variables a cell.
+//! `aᵢ`. Within a cell `u` is constant, so `x` at its start and `y` at its end are `2 u` times its length apart, and
+//! each axis asks for two strips of the plane of `x` and `y`, one for either end: a convex figure round the origin.
+//! [`Cell::most_before`] is its highest `x` from which the next cell can be entered as slowly as it asks,
+//! [`Cell::reach`] the range of `y` for an `x`. This is the reachability analysis of Pham and Pham (TOPP-RA, IEEE
+//! T-RO 2018), one linear program of two variables a cell.
 
-use base::AXES;
+use base::{AXES, Point};
 
-use crate::limits::Limits;
-use crate::way::Way;
+use crate::limits::{AxisLimits, Limits};
+use crate::way::{Way, dot};
 
-/// One strip: `-1 ≤ slope u + bend x ≤ 1`, divided by the slope, which is made positive.
+/// One strip: `-half ≤ x + lean y ≤ half`.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 struct Strip {
-    /// 1 / slope.
     half: f64,
-    /// bend / slope.
     lean: f64,
 }
 
 /// Two strips, of the cell's start and of its end, for every axis.
 const STRIPS: usize = 2 * AXES;
-/// A strip as level as this bounds the speed and not its change: an axis that turns round gives next to nothing to it.
-const LEVEL: f64 = 1e-7;
+/// A speed that is the limit itself shall not count as beyond it by a rounding.
+const AT_THE_LIMIT: f64 = 1.0 + 1e-9;
 /// Steps after which the search for the highest speed is over; each one leaves a side of the figure behind.
 const SEARCH_STEPS: usize = 2 * STRIPS;
+/// A strip that does not bound `x` at all is taken to lean as much as this, relative to its bound of `y`.
+const LEVEL: f64 = 1e-12;
 
 /// A stretch of way. Speeds are squared, (mm/s)², and count along the way's own length.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -34,14 +35,20 @@ pub struct Cell {
     pub way: u64,
     /// Where it begins and ends on that way, mm.
     pub part: [f64; 2],
-    /// What the axes' highest feeds allow.
+    /// What the axes allow where speed does not change.
     pub axes_allow: f64,
+    /// What the axes' highest feeds allow.
+    rates_allow: f64,
     /// What the commanded feed allows, overrides counted in.
     pub feed_allows: f64,
+    /// How far the axes move for each mm of the way, squared; its most.
+    pub pace: f64,
     /// The cell's own squared speed at its end for each one of the next cell's, where their ways count differently.
     pub gain: f64,
     /// The highest squared speed at its start from which everything behind it can be kept to.
     pub most: f64,
+    /// The squared speed at its end that comes of that.
+    pub leads_to: f64,
     /// The axes stand at its end.
     pub stops: bool,
     /// Where the move ends that it belongs to.
@@ -50,8 +57,24 @@ pub struct Cell {
     pub moves: [u64; 2],
     /// The acceleration along it, mm/s², if it is straight.
     straight: Option<f64>,
+    /// The part of what the axes can give that it uses.
+    pub share: f64,
     strips: [Strip; STRIPS],
     count: usize,
+}
+
+/// A place on a way: how the axes move there for each mm of it, and how that changes.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Edge {
+    slope: Point,
+    bend: Point,
+}
+
+impl Edge {
+    /// The place at this length of a way.
+    pub fn new(way: &Way, s: f64) -> Edge {
+        Edge { slope: way.slope(s), bend: way.bend(s) }
+    }
 }
 
 /// Where in a cell a move ends.
@@ -65,69 +88,83 @@ pub enum Ends {
     At(f64),
 }
 
+/// Which rate of an axis bounds a cell.
+pub type Rate = fn(&AxisLimits) -> f64;
+
 impl Cell {
-    /// The part of a way between two of its lengths.
-    pub fn new(
-        limits: &Limits,
-        (number, way): (u64, &Way),
-        part: [f64; 2],
-        rate: fn(&crate::AxisLimits) -> f64,
-    ) -> Cell {
-        let mut cell = Cell {
-            way: number,
+    fn new(way: u64, part: [f64; 2]) -> Cell {
+        Cell {
+            way,
             part,
             axes_allow: f64::INFINITY,
+            rates_allow: f64::INFINITY,
             feed_allows: f64::INFINITY,
+            pace: 1.0,
             gain: 1.0,
             most: 0.0,
+            leads_to: 0.0,
             stops: false,
             ends: Ends::Not,
             moves: [0; 2],
             straight: None,
+            share: 1.0,
             strips: [Strip::default(); STRIPS],
             count: 0,
-        };
-        match way {
-            Way::Line { along, .. } => {
-                let (mut speed, mut acceleration) = (f64::INFINITY, f64::INFINITY);
-                for (limit, along) in limits.axes[..limits.count].iter().zip(along) {
-                    let along = along.abs();
-                    if along > 0.0 {
-                        speed = speed.min(rate(limit) / along);
-                        acceleration = acceleration.min(limit.acceleration / along);
-                    }
-                }
-                cell.axes_allow = speed * speed;
-                cell.straight = Some(acceleration);
-            }
-            _ => cell.take_strips(limits, way, rate),
         }
+    }
+
+    /// A part of a straight way in this direction.
+    pub fn straight(limits: &Limits, way: u64, part: [f64; 2], along: &Point, rate: Rate) -> Cell {
+        let mut cell = Cell::new(way, part);
+        let (mut speed, mut acceleration) = (f64::INFINITY, f64::INFINITY);
+        for (limit, along) in limits.axes[..limits.count].iter().zip(along) {
+            let along = along.abs();
+            if along > 0.0 {
+                speed = speed.min(rate(limit) / along);
+                acceleration = acceleration.min(limit.acceleration / along);
+            }
+        }
+        (cell.axes_allow, cell.rates_allow) = (speed * speed, speed * speed);
+        cell.straight = Some(acceleration);
         cell
     }
 
-    fn take_strips(&mut self, limits: &Limits, way: &Way, rate: fn(&crate::AxisLimits) -> f64) {
-        let length = self.length();
-        for s in self.part {
-            let (slope, bend) = (way.slope(s), way.bend(s));
-            // At the end of the cell `x` has grown by 2 u length.
-            let grown = if s == self.part[1] { 2.0 * length } else { 0.0 };
-            for axis in 0..limits.count {
-                let (slope, bend, limit) = (slope[axis], bend[axis], &limits.axes[axis]);
-                if slope == 0.0 && bend == 0.0 {
-                    continue;
-                }
-                let fastest = rate(limit) / slope.abs();
-                self.axes_allow = self.axes_allow.min(fastest * fastest);
-                // Also where there is no acceleration along the way.
-                self.axes_allow = self.axes_allow.min(limit.acceleration / bend.abs());
-                let steep = slope + grown * bend;
-                if steep.abs() > LEVEL && self.count < STRIPS {
-                    let (half, lean) = (limit.acceleration / steep.abs(), bend / steep);
-                    self.strips[self.count] = Strip { half, lean };
-                    self.count += 1;
-                }
+    /// A part of a bent way between two of its places, using so much of what the axes can give: between the places they
+    /// are asked for more than there.
+    pub fn bent(limits: &Limits, way: u64, part: [f64; 2], edges: [&Edge; 2], rate: Rate, share: f64) -> Cell {
+        let mut cell = Cell::new(way, part);
+        let per_u = 0.5 / cell.length();
+        let (mut rates_allow, mut bends_allow) = (f64::INFINITY, f64::INFINITY);
+        for axis in 0..limits.count {
+            if edges.iter().all(|edge| edge.slope[axis] == 0.0 && edge.bend[axis] == 0.0) {
+                continue;
+            }
+            let limit = &limits.axes[axis];
+            let (given, fastest) = (limit.acceleration * share, rate(limit) * share);
+            for (at_end, edge) in edges.into_iter().enumerate() {
+                let (slope, bend) = (edge.slope[axis], edge.bend[axis]);
+                let fastest = fastest / slope;
+                rates_allow = rates_allow.min(fastest * fastest);
+                bends_allow = bends_allow.min(given / bend.abs());
+                let across = slope * per_u;
+                cell.strips[cell.count] = if at_end == 0 {
+                    Strip::new(bend - across, across, given)
+                } else {
+                    Strip::new(-across, bend + across, given)
+                };
+                cell.count += 1;
             }
         }
+        (cell.rates_allow, cell.share) = (rates_allow, share);
+        cell.axes_allow = rates_allow.min(bends_allow);
+        let [start, end] = edges.map(|edge| dot(&edge.slope, &edge.slope, limits.count));
+        cell.pace = start.max(end);
+        cell
+    }
+
+    /// The rest of a straight one.
+    pub fn from(&self, start: f64) -> Cell {
+        Cell { part: [start, self.part[1]], ..*self }
     }
 
     /// Its length, mm.
@@ -137,78 +174,126 @@ impl Cell {
 
     /// What may be driven in it.
     pub fn allowed(&self) -> f64 {
-        self.axes_allow.min(self.feed_allows)
+        self.rates_allow.min(self.feed_allows)
     }
 
     /// The acceleration along it, if it is straight.
-    pub fn straight(&self) -> Option<f64> {
+    pub fn acceleration(&self) -> Option<f64> {
         self.straight
     }
 
-    /// The highest squared speed at its start from which its end is reached with at most `end`.
-    pub fn most_before(&self, end: f64) -> f64 {
-        let (allowed, length) = (self.allowed(), self.length());
+    /// The highest squared speed at its start from which its end is reached with at most `end`, and that at its end.
+    pub fn most_before(&self, end: f64) -> (f64, f64) {
+        let allowed = self.allowed();
         let end = end.min(allowed);
         if let Some(acceleration) = self.straight {
-            return allowed.min(end + 2.0 * acceleration * length);
+            return (allowed.min(end + 2.0 * acceleration * self.length()), end);
         }
-        let mut x = allowed;
+        let mut y = end;
+        // Where no speed at the start leads to such an end it is lowered to one that can be reached.
+        let mut above = Strip { half: allowed, lean: 0.0 };
         for _ in 0..SEARCH_STEPS {
-            let (above, below) = self.range(x, end, length);
-            if above.at(x) >= below.at(x) {
-                return x;
+            let (least, most) = self.bounds(y, allowed);
+            above = most;
+            if most.at(y) >= least.at(y) {
+                break;
             }
-            // Where the two lines meet; they leave each other behind as the speed falls.
-            let met = (above.half - below.half) / (above.lean - below.lean);
-            if met >= x {
-                return x;
+            let met = (most.half - least.half) / (most.lean - least.lean);
+            if met >= y {
+                break;
             }
-            // Never below zero, where every strip holds; `max` also takes it where the lines are parallel.
-            x = met.max(0.0);
+            y = met.max(0.0);
         }
-        x
-    }
-
-    /// The largest `u` at the squared speed `x` from which its end is reached with at most `end`; never one that an
-    /// axis cannot give.
-    pub fn hardest(&self, x: f64, end: f64) -> f64 {
-        let (above, below) = self.range(x, end.min(self.allowed()), self.length());
-        above.at(x).max(self.softest(x)).max(below.at(x))
-    }
-
-    /// The smallest `u` that the axes can give at the squared speed `x`.
-    pub fn softest(&self, x: f64) -> f64 {
-        if let Some(acceleration) = self.straight {
-            return -acceleration;
+        // Entering the next cell more slowly may let this one begin faster.
+        if above.lean <= 0.0 || y <= 0.0 {
+            return (above.at(y).max(0.0), y);
         }
-        let below = |strip: &Strip| -strip.half - strip.lean * x;
-        self.strips[..self.count].iter().map(below).fold(f64::NEG_INFINITY, f64::max)
+        let mut rising = self.bounds(0.0, allowed).1;
+        if rising.lean >= 0.0 {
+            return (rising.at(0.0), 0.0);
+        }
+        for _ in 0..SEARCH_STEPS {
+            let met = (above.half - rising.half) / (above.lean - rising.lean);
+            let lowest = self.bounds(met, allowed).1;
+            if lowest == above || lowest == rising {
+                break;
+            }
+            if lowest.lean > 0.0 {
+                above = lowest;
+            } else {
+                rising = lowest;
+            }
+        }
+        let met = (above.half - rising.half) / (above.lean - rising.lean);
+        (above.at(met).clamp(0.0, allowed), met)
     }
 
-    /// The lines that bound `u` from above and below at `x`.
-    fn range(&self, x: f64, end: f64, length: f64) -> (Strip, Strip) {
-        let per_u = 1.0 / (2.0 * length);
-        let mut above = Strip { half: end * per_u, lean: per_u };
-        let mut below = Strip { half: 0.0, lean: per_u };
-        let (mut highest, mut lowest) = (above.at(x), below.at(x));
+    /// The lines that bound `x` from below and above at `y`.
+    fn bounds(&self, y: f64, allowed: f64) -> (Strip, Strip) {
+        let (mut below, mut above) = (Strip::default(), Strip { half: allowed, lean: 0.0 });
+        let (mut least, mut most) = (0.0, allowed);
         for strip in &self.strips[..self.count] {
-            let leaning = strip.lean * x;
-            if strip.half - leaning < highest {
-                highest = strip.half - leaning;
+            let leaning = strip.lean * y;
+            if strip.half - leaning < most {
+                most = strip.half - leaning;
                 above = *strip;
             }
-            if -strip.half - leaning > lowest {
-                lowest = -strip.half - leaning;
+            if -strip.half - leaning > least {
+                least = -strip.half - leaning;
                 below = Strip { half: -strip.half, lean: strip.lean };
             }
         }
-        (above, below)
+        (below, above)
+    }
+
+    /// The lowest and the highest squared speed at its end that the axes can come to from `x`; the lowest may be less
+    /// than nothing.
+    pub fn reach(&self, x: f64) -> [f64; 2] {
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for strip in &self.strips[..self.count] {
+            if strip.lean == 0.0 {
+                continue;
+            }
+            let per_y = 1.0 / strip.lean;
+            let (middle, apart) = (-x * per_y, strip.half * AT_THE_LIMIT * per_y.abs());
+            low = low.max(middle - apart);
+            high = high.min(middle + apart);
+        }
+        // Where rounding leaves nothing between them.
+        if low > high { [(low + high) / 2.0; 2] } else { [low, high] }
+    }
+
+    /// The acceleration with which the axes come to stand in it from the squared speed `x` at its start, if they can.
+    pub fn to_stand(&self, x: f64) -> Option<f64> {
+        let mut hardest = self.straight.unwrap_or(f64::INFINITY);
+        let double = 2.0 * self.length();
+        for (index, strip) in self.strips[..self.count].iter().enumerate() {
+            let (x_part, y_part) = (1.0 / strip.half, strip.lean / strip.half);
+            if index % 2 == 0 {
+                // |slope u + bend x| ≤ 1 at the start, where the slope is y's part.
+                let (slope, bend) = (y_part * double, x_part + y_part);
+                hardest = hardest.min((1.0 + bend * x * slope.signum()) / slope.abs()).min(1.0 / slope.abs());
+            } else {
+                hardest = hardest.min(1.0 / (x_part * double).abs());
+            }
+        }
+        let hardest = hardest.max(0.0);
+        (hardest * double >= x).then_some(-hardest)
     }
 }
 
 impl Strip {
-    /// The line's `u` at `x`.
-    fn at(&self, x: f64) -> f64 {
-        self.half - self.lean * x
+    /// `|x_part x + y_part y| ≤ given`.
+    fn new(x_part: f64, y_part: f64, given: f64) -> Strip {
+        if x_part == 0.0 && y_part == 0.0 {
+            return Strip { half: f64::INFINITY, lean: 0.0 };
+        }
+        let x_part = if x_part.abs() > y_part.abs() * LEVEL { x_part } else { y_part.abs() * LEVEL };
+        Strip { half: given / x_part.abs(), lean: y_part / x_part }
+    }
+
+    /// The line's `x` at `y`.
+    fn at(&self, y: f64) -> f64 {
+        self.half - self.lean * y
     }
 }

@@ -5,6 +5,8 @@
 //! leaves the corner by `l |Δ| / 4` and asks `v² |Δᵢ| / 2l` of axis `i`. The arm is the shortest one that lets the
 //! commanded feed pass, at most half of either way, and no longer than the tolerance allows.
 
+use base::Point;
+
 use crate::limits::Limits;
 use crate::way::{Way, dot, norm};
 
@@ -27,21 +29,20 @@ const UNNOTICED: f64 = 2e-4;
 /// By how much longer than needed for the feed an arm is, so that speed can change in it: between lines, and beside arcs.
 const ROOM: f64 = 2.0;
 const ROOM_BESIDE_ARCS: f64 = 3.0;
-/// How much of the tolerance is used where one of the ways is itself bent.
-const SHARE_BESIDE_ARCS: f64 = 0.5;
+/// How far a bent way may turn within an arm, radians.
+const MOST_TURN: f64 = 0.3;
+/// Where one of the ways is bent the arm is shortened by this until the tolerance is kept to: so many times, and to that
+/// part of it, as only some points are looked at.
+const SHORTER: f64 = 0.7;
+const MOST_TIMES: usize = 12;
+const KEPT: f64 = 0.97;
 /// The shortest arm, mm; a corner without room for it is a stop.
 const SHORTEST: f64 = 1e-7;
 
 /// The corner from one way into the next, both driven at no more than `speed` (mm/s).
 pub fn corner(limits: &Limits, before: &Way, after: &Way, speed: f64) -> Corner {
     let count = limits.count;
-    let (mut first, mut second) = (before.slope(before.length()), after.slope(0.0));
-    for slope in [&mut first, &mut second] {
-        let length = norm(slope, count);
-        for part in slope {
-            *part /= length;
-        }
-    }
+    let (first, second) = (heading(before, before.length()), heading(after, 0.0));
     let (mut change, mut needed, mut noticed) = (0.0, 0.0f64, false);
     for axis in 0..count {
         let turned = (second[axis] - first[axis]).abs();
@@ -58,9 +59,52 @@ pub fn corner(limits: &Limits, before: &Way, after: &Way, speed: f64) -> Corner 
         return Corner::Stop;
     }
     let straight = before.is_straight() && after.is_straight();
-    let (room, share) = if straight { (ROOM, 1.0) } else { (ROOM_BESIDE_ARCS, SHARE_BESIDE_ARCS) };
     let half = before.length().min(after.length()) / 2.0;
-    let tolerated = 4.0 * share * limits.corner_tolerance / change;
-    let arm = half.min(tolerated).min(room * needed * speed * speed / 2.0);
-    if arm > SHORTEST { Corner::Rounded(arm) } else { Corner::Stop }
+    let tolerated = 4.0 * limits.corner_tolerance / change;
+    let wanted = needed * speed * speed / 2.0;
+    if straight {
+        let arm = half.min(tolerated).min(ROOM * wanted);
+        return if arm > SHORTEST { Corner::Rounded(arm) } else { Corner::Stop };
+    }
+    let bend = norm(&before.bend(before.length()), count).max(norm(&after.bend(0.0), count));
+    let mut arm = half.min(tolerated).min(ROOM_BESIDE_ARCS * wanted).min(MOST_TURN / bend);
+    for _ in 0..MOST_TIMES {
+        if arm <= SHORTEST {
+            break;
+        }
+        if deviation(before, after, arm, count) <= KEPT * limits.corner_tolerance {
+            return Corner::Rounded(arm);
+        }
+        arm *= SHORTER;
+    }
+    Corner::Stop
+}
+
+/// The way round the corner with this arm.
+pub fn round(before: &Way, after: &Way, arm: f64) -> Way {
+    let end = before.length() - arm;
+    Way::blend(&before.at(end), &heading(before, end), &after.at(arm), &heading(after, arm), 2.0 * arm)
+}
+
+/// How far the way round the corner is from the corner, or from the ways half-way to it.
+fn deviation(before: &Way, after: &Way, arm: f64, count: usize) -> f64 {
+    let blend = round(before, after, arm);
+    let off = |s: f64, place: Point| {
+        let at = blend.at(s);
+        let apart: Point = std::array::from_fn(|axis| at[axis] - place[axis]);
+        norm(&apart, count)
+    };
+    let corner = off(arm, after.at(0.0));
+    let sides = off(arm / 2.0, before.at(before.length() - arm / 2.0)).max(off(1.5 * arm, after.at(arm / 2.0)));
+    corner.max(sides)
+}
+
+/// The direction of a way, one mm long.
+fn heading(way: &Way, s: f64) -> Point {
+    let mut slope = way.slope(s);
+    let length = norm(&slope, slope.len());
+    for part in &mut slope {
+        *part /= length;
+    }
+    slope
 }

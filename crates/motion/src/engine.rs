@@ -137,7 +137,9 @@ impl Engine {
 
     pub fn hold(&mut self, held: bool) {
         match self {
-            Engine::Horizon(horizon) => horizon.hold(held),
+            // Whoever holds has waited for the end of tapping, or does not wait.
+            Engine::Horizon(horizon) if held => horizon.emergency_stop(),
+            Engine::Horizon(horizon) => horizon.hold(false),
             Engine::Jerk(horizon) => horizon.hold(held),
             Engine::Classic(classic) => classic.hold(held),
         }

@@ -12,22 +12,25 @@ mod stand;
 
 use std::collections::VecDeque;
 
-use base::Point;
+use base::{AXES, Point};
 use meaning::Feed;
 
 use drive::Drive;
 pub use drive::{Leg, Setpoint};
 
-use crate::cell::{Cell, Ends};
-use crate::corner::{Corner, corner};
+use crate::cell::{Cell, Edge, Ends, Rate};
+use crate::corner::{Corner, corner, round};
 use crate::limits::{AxisLimits, Limits};
 use crate::overrides::Overrides;
 use crate::way::{Way, norm};
 
 /// The longest look-ahead, cells. A program of points 1 µm apart is then seen 16 mm ahead.
 pub const MOST_CELLS: usize = 16_384;
-/// Radians that a cell turns at most: between its ends an acceleration can be 1 / cos(half of it) of what it is there.
-const WIDEST: f64 = 0.08;
+/// Between the ends of a cell an acceleration may be more than at both by this part of what the axes can give. Where a
+/// cell of an arc turns by φ that is up to 5/8 φ²: φ²/8 as the direction turns, φ²/2 as the speed changes meanwhile.
+const UNEVEN: f64 = 0.00225;
+/// So much of it is let pass; by the rest less is used of what the axes can give.
+const LET_PASS: f64 = 0.0008;
 /// Cells of a bent way that begins or ends with a stop: speed rises and falls in steps of cells.
 const FINEST: usize = 16;
 /// Most cells of a single way.
@@ -168,9 +171,7 @@ impl Horizon {
                 let end = last.way.length() - arm;
                 self.cut(last, end, false);
                 self.link(1.0);
-                let [before, after] = [heading(&last.way, end), heading(&next.way, arm)];
-                let blend = Way::blend(&last.way.at(end), &before, &next.way.at(arm), &after, 2.0 * arm);
-                self.cut_blend(&blend, [last.mover, next.mover], turn(&before, &after));
+                self.cut_blend(&round(&last.way, &next.way, arm), [last.mover, next.mover]);
                 self.link(pace(&next.way, arm));
             }
         }
@@ -196,41 +197,81 @@ impl Horizon {
         if length <= 0.0 {
             return;
         }
-        let mut pieces = 1;
+        let (mut pieces, mut share) = (1, 1.0);
         if let Way::Arc { arc, length: whole } = &open.way {
-            let turned = arc.sweep.abs() * length / whole;
-            let least = if to_rest || open.from_rest { FINEST } else { 2 };
-            pieces = ((turned / WIDEST).ceil() as usize).clamp(least, MOST_OF_A_WAY);
+            // On a spiral the direction turns up to twice as fast as the spoke.
+            let part = if arc.radius[0] == arc.radius[1] { length / whole } else { 2.0 * length / whole };
+            let turned = arc.sweep.abs() * part;
+            let least = if to_rest || open.from_rest { FINEST } else { 1 };
+            pieces = ((turned * (0.625 / UNEVEN).sqrt()).ceil() as usize).clamp(least, MOST_OF_A_WAY);
+            let each = turned / pieces as f64;
+            share = share_of(0.625 * each * each);
         }
-        self.push((open.number, &open.way), [open.from, end], pieces, [open.mover; 2]);
+        self.push((open.number, &open.way), [open.from, end], (pieces, share), [open.mover; 2]);
     }
 
-    fn cut_blend(&mut self, blend: &Way, movers: [u64; 2], turn: f64) {
+    fn cut_blend(&mut self, blend: &Way, movers: [u64; 2]) {
         let number = self.keep(*blend);
         let length = blend.length();
-        let pieces = (turn / WIDEST).ceil() as usize;
+        let Way::Blend { terms: [_, _, square, cube], .. } = blend else { return };
+        // The bend changes steadily, so nowhere is it more than at one of its ends.
+        let ends: [Point; 2] =
+            [0.0, 6.0 * length].map(|s| std::array::from_fn(|axis| 2.0 * square[axis] + s * cube[axis]));
+        let turned = length * ends.map(|bend| norm(&bend, AXES)).into_iter().fold(0.0, f64::max);
+        // Between the ends of a cell an acceleration is off the straight line between theirs as 5/8 of the third
+        // derivative, by the change of speed and the square of the length.
+        let u = [0.0, length].map(|s| self.hardest_along(&blend.slope(s))).into_iter().fold(0.0, f64::max);
+        let mut uneven = 0.0f64;
+        for (limit, cube) in self.limits.axes.iter().zip(cube).take(self.limits.count) {
+            uneven = uneven.max(0.625 * 6.0 * cube.abs() * u * length * length / limit.acceleration);
+        }
+        let uneven = uneven.max(0.625 * turned * turned);
+        let pieces = ((uneven / UNEVEN).sqrt().ceil().max(1.0) as usize).min(MOST_OF_A_WAY);
         if pieces <= 1 {
-            self.push((number, blend), [0.0, length], 1, movers);
+            self.push((number, blend), [0.0, length], (1, share_of(uneven)), movers);
             return self.end_move(Ends::At(length / 2.0), false);
         }
         let half = pieces.div_ceil(2);
-        self.push((number, blend), [0.0, length / 2.0], half, movers);
+        let share = share_of(uneven / (4 * half * half) as f64);
+        self.push((number, blend), [0.0, length / 2.0], (half, share), movers);
         self.end_move(Ends::AtEnd, false);
-        self.push((number, blend), [length / 2.0, length], half, movers);
+        self.push((number, blend), [length / 2.0, length], (half, share), movers);
     }
 
-    fn push(&mut self, (number, way): (u64, &Way), [from, to]: [f64; 2], pieces: usize, movers: [u64; 2]) {
-        let rate = self.rate(movers[0]);
-        let feed_allows = self.feed_allows(movers);
+    /// The highest acceleration along a direction that no axis is asked too much by.
+    fn hardest_along(&self, slope: &Point) -> f64 {
+        let axes = self.limits.axes.iter().zip(slope).take(self.limits.count);
+        axes.map(|(limit, slope)| limit.acceleration / slope.abs()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Cuts a part of a way into so many cells, each of which uses so much of what the axes can give.
+    fn push(
+        &mut self,
+        (number, way): (u64, &Way),
+        [from, to]: [f64; 2],
+        (pieces, share): (usize, f64),
+        moves: [u64; 2],
+    ) {
+        let rate = self.rate(moves);
+        if let Way::Line { along, .. } = way {
+            let cell = Cell::straight(&self.limits, number, [from, to], along, rate);
+            return self.push_cell(cell, moves);
+        }
         let step = (to - from) / pieces as f64;
-        let mut start = from;
+        let (mut start, mut edge) = (from, Edge::new(way, from));
         for piece in 1..=pieces {
             let end = if piece == pieces { to } else { from + step * piece as f64 };
-            let mut cell = Cell::new(&self.limits, (number, way), [start, end], rate);
-            (cell.moves, cell.feed_allows) = (movers, feed_allows);
-            self.cells.push_back(cell);
-            start = end;
+            let next = Edge::new(way, end);
+            let cell = Cell::bent(&self.limits, number, [start, end], [&edge, &next], rate, share);
+            self.push_cell(cell, moves);
+            (start, edge) = (end, next);
         }
+    }
+
+    fn push_cell(&mut self, mut cell: Cell, moves: [u64; 2]) {
+        cell.moves = moves;
+        cell.feed_allows = self.feed_allows(&cell);
+        self.cells.push_back(cell);
     }
 
     fn end_move(&mut self, ends: Ends, stops: bool) {
@@ -252,12 +293,9 @@ impl Horizon {
         self.asked.get(mover.checked_sub(self.first_move)? as usize)
     }
 
-    /// Which rate of an axis bounds a move.
-    fn rate(&self, mover: u64) -> fn(&AxisLimits) -> f64 {
-        match self.asked(mover) {
-            Some(asked) if asked.feed.mm_per_min == f64::INFINITY => |axis| axis.rapid,
-            _ => |axis| axis.max_feed,
-        }
+    /// Which rate of an axis bounds what lies on two moves.
+    fn rate(&self, moves: [u64; 2]) -> Rate {
+        if moves.into_iter().all(|mover| self.is_at_rapid(mover)) { |axis| axis.rapid } else { |axis| axis.max_feed }
     }
 
     /// The speed that a move asks for along its way without overrides, mm/s.
@@ -267,17 +305,45 @@ impl Horizon {
 
     /// The speed that the next move to end asks for, mm/s along its way, overrides counted in.
     pub fn next_asks(&self) -> f64 {
-        let next = self.cells.iter().find(|cell| cell.ends != Ends::Not);
-        next.map_or(0.0, |cell| self.feed_allows([cell.moves[0]; 2]).sqrt())
+        let next = self.next_end().and_then(|end| self.cells.get(end));
+        next.and_then(|cell| self.asked(cell.moves[0])).map_or(0.0, |asked| self.asks(asked))
     }
 
-    /// The squared speed that the feeds of two moves allow, overrides counted in.
-    fn feed_allows(&self, movers: [u64; 2]) -> f64 {
-        let speed = movers.map(|mover| {
-            self.asked(mover).map_or(0.0, |asked| self.overrides.actual(&asked.feed) / 60.0 * asked.share)
-        });
-        let slower = speed[0].min(speed[1]);
-        slower * slower
+    /// The speed that a move asks for along its way, mm/s, overrides counted in.
+    fn asks(&self, asked: &Asked) -> f64 {
+        self.overrides.actual(&asked.feed) / 60.0 * asked.share
+    }
+
+    /// The squared speed that the feeds of a cell's moves allow, overrides counted in.
+    fn feed_allows(&self, cell: &Cell) -> f64 {
+        let mut slowest = f64::INFINITY;
+        for mover in cell.moves {
+            let Some(asked) = self.asked(mover) else { continue };
+            slowest = slowest.min(self.asks(asked));
+        }
+        let mut allows = slowest * slowest / cell.pace;
+        let overrides = &self.overrides;
+        let tells = overrides.rapid != 1.0 || overrides.rapid_limit < f64::INFINITY || overrides.dry_run.is_some();
+        if tells && cell.moves.into_iter().any(|mover| self.is_at_rapid(mover)) {
+            let rate = |axis: &AxisLimits| match overrides.dry_run {
+                Some(_) => axis.max_feed,
+                None => overrides.rapid(axis.rapid),
+            };
+            if let Some(way) = self.way(cell.way) {
+                for edge in cell.part.map(|s| way.slope(s)) {
+                    for (limit, slope) in self.limits.axes.iter().zip(edge).take(self.limits.count) {
+                        let fastest = rate(limit) / slope;
+                        allows = allows.min(fastest * fastest);
+                    }
+                }
+            }
+        }
+        allows
+    }
+
+    /// A cut at the rapid rate.
+    fn is_at_rapid(&self, mover: u64) -> bool {
+        self.asked(mover).is_some_and(|asked| asked.feed.mm_per_min == f64::INFINITY)
     }
 
     /// The speeds as the operator has set them, from the next setpoint on.
@@ -288,7 +354,7 @@ impl Horizon {
         self.overrides = overrides;
         self.cut_here();
         for index in 0..self.cells.len() {
-            let allows = self.feed_allows(self.cells[index].moves);
+            let allows = self.feed_allows(&self.cells[index]);
             self.cells[index].feed_allows = allows;
         }
         self.settled = 0;
@@ -296,14 +362,9 @@ impl Horizon {
     }
 }
 
-/// The direction of a way, one mm long.
-fn heading(way: &Way, s: f64) -> Point {
-    let mut slope = way.slope(s);
-    let length = norm(&slope, slope.len());
-    for part in &mut slope {
-        *part /= length;
-    }
-    slope
+/// The part of what the axes can give that a cell uses which is as uneven as this.
+fn share_of(uneven: f64) -> f64 {
+    (1.0 + LET_PASS - uneven).clamp(0.5, 1.0)
 }
 
 /// How far the axes move for each mm of a way: one, but for spirals.
@@ -315,10 +376,4 @@ fn pace(way: &Way, s: f64) -> f64 {
         }
         _ => 1.0,
     }
-}
-
-/// The angle between two directions, radians.
-fn turn(before: &Point, after: &Point) -> f64 {
-    let apart: Point = std::array::from_fn(|axis| after[axis] - before[axis]);
-    2.0 * libm::asin((norm(&apart, apart.len()) / 2.0).min(1.0))
 }

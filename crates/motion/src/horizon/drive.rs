@@ -3,11 +3,9 @@
 use base::{AXES, Point};
 
 use super::Horizon;
-use crate::cell::{Cell, Ends};
+use crate::cell::{Cell, Edge, Ends};
 use crate::way::Way;
 
-/// Cells into which a bent one is cut when the axes stand or turn back in it.
-const CUT_ANEW: usize = 8;
 /// A rest of way shorter than this is none, mm.
 const NOTHING_LEFT: f64 = 1e-9;
 
@@ -79,8 +77,17 @@ pub(super) struct Drive {
     legs: Option<Legs>,
     leg: usize,
     spent: f64,
-    /// The axes shall stand as soon as they can.
-    held: bool,
+    hold: Hold,
+}
+
+/// Whether the axes shall stand as soon as they can.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+enum Hold {
+    #[default]
+    No,
+    /// Not in tapping, which is brought to its end.
+    Feed,
+    Always,
 }
 
 impl Horizon {
@@ -105,8 +112,7 @@ impl Horizon {
                     return seconds;
                 }
             }
-            let ended = self.end_cell();
-            if ended {
+            if legs.end.is_none() || self.end_cell() {
                 return seconds;
             }
         }
@@ -168,10 +174,24 @@ impl Horizon {
         self.here().1 <= 0.0
     }
 
-    /// The axes shall stand as soon as they can, or go on.
+    /// Feed hold: the axes shall stand as soon as they can, once tapping is over; or go on.
     pub fn hold(&mut self, held: bool) {
-        if self.drive.held != held {
-            self.drive.held = held;
+        self.set_hold(if held { Hold::Feed } else { Hold::No });
+    }
+
+    /// Emergency stop: the axes stand as soon as they can, whatever is under way. What is ahead is then to be cleared.
+    pub fn emergency_stop(&mut self) {
+        self.set_hold(Hold::Always);
+    }
+
+    /// True if the axes stand because they have been held.
+    pub fn is_held(&self) -> bool {
+        self.drive.hold != Hold::No && self.is_standing() && self.cells.front().is_none_or(|cell| self.holds(cell))
+    }
+
+    fn set_hold(&mut self, hold: Hold) {
+        if self.drive.hold != hold {
+            self.drive.hold = hold;
             self.cut_here();
             self.settled = 0;
             self.look_again();
@@ -181,6 +201,15 @@ impl Horizon {
     /// The squared speed at the start of the first cell, which is not under way.
     pub(super) fn speed_squared(&self) -> f64 {
         self.drive.x
+    }
+
+    /// True if the axes are to stand as soon as they can in this cell.
+    fn holds(&self, cell: &Cell) -> bool {
+        match self.drive.hold {
+            Hold::No => false,
+            Hold::Feed => !cell.moves.iter().any(|mover| self.asked(*mover).is_some_and(|asked| asked.feed.tapping)),
+            Hold::Always => true,
+        }
     }
 
     /// The place on the first cell's way, and the speed there.
@@ -203,32 +232,34 @@ impl Horizon {
     /// The first cell begins here: what is under way is planned anew from the present place and speed.
     pub(super) fn cut_here(&mut self) {
         let (s, speed) = self.here();
+        let is_passed = self.is_border_passed();
         if self.drive.legs.take().is_none() {
             return;
         }
         (self.drive.leg, self.drive.spent, self.drive.x) = (0, 0.0, speed * speed);
         let Some(cell) = self.cells.pop_front() else { return };
-        let rest = cell.part[1] - s;
-        let pieces = if cell.straight().is_some() || rest < NOTHING_LEFT { 1 } else { CUT_ANEW };
-        let rate = self.rate(cell.moves[0]);
-        let Some(way) = self.way(cell.way).copied() else { return };
-        let start = s.min(cell.part[1] - NOTHING_LEFT / 2.0);
-        let step = (cell.part[1] - start) / pieces as f64;
-        for piece in (0..pieces).rev() {
-            let end = if piece + 1 == pieces { cell.part[1] } else { start + step * (piece + 1) as f64 };
-            let part = [start + step * piece as f64, end];
-            let mut new = Cell::new(&self.limits, (cell.way, &way), part, rate);
-            (new.moves, new.feed_allows) = (cell.moves, cell.feed_allows);
-            if piece + 1 == pieces {
-                (new.gain, new.stops, new.ends) = (cell.gain, cell.stops, cell.ends);
+        let Some(way) = self.way(cell.way) else { return };
+        let start = s.clamp(cell.part[0], cell.part[1] - NOTHING_LEFT / 2.0);
+        let mut new = match cell.acceleration() {
+            Some(_) => cell.from(start),
+            None => {
+                let edges = [start, cell.part[1]].map(|s| Edge::new(way, s));
+                let rate = self.rate(cell.moves);
+                Cell::bent(&self.limits, cell.way, [start, cell.part[1]], [&edges[0], &edges[1]], rate, cell.share)
             }
-            match cell.ends {
-                Ends::At(border) if part[0] <= border && border < end => new.ends = cell.ends,
-                Ends::At(_) => new.ends = Ends::Not,
-                _ => {}
-            }
-            self.cells.push_front(new);
-        }
+        };
+        new.ends = match cell.ends {
+            Ends::At(_) if is_passed => Ends::Not,
+            Ends::At(border) => Ends::At(border.max(start)),
+            other => other,
+        };
+        (new.moves, new.feed_allows, new.gain, new.stops) = (cell.moves, cell.feed_allows, cell.gain, cell.stops);
+        self.cells.push_front(new);
+    }
+
+    /// True if in the first cell a move has ended already.
+    pub(super) fn is_border_passed(&self) -> bool {
+        self.drive.legs.as_ref().and_then(|legs| legs.border).is_some_and(|border| self.drive.leg >= border)
     }
 
     /// Plans the first cell if it is not; false if there is none.
@@ -238,7 +269,11 @@ impl Horizon {
         }
         let Some(cell) = self.cells.front() else { return false };
         let end = self.end_of(0);
-        let mut legs = if self.drive.held { slow_down(cell, self.drive.x) } else { speed_up(cell, self.drive.x, end) };
+        let mut legs = match cell.acceleration() {
+            _ if self.holds(cell) => slow_down(cell, self.drive.x),
+            Some(acceleration) => speed_up(cell, acceleration, self.drive.x, end),
+            None => speed_up_bent(cell, self.drive.x, end),
+        };
         if let Ends::At(border) = cell.ends {
             split(&mut legs, border);
         }
@@ -254,8 +289,9 @@ impl Horizon {
         self.drive.x = if cell.stops { 0.0 } else { x / cell.gain };
         self.settled = self.settled.saturating_sub(1);
         self.goal = self.goal.saturating_sub(1);
-        if self.cells.front().is_none_or(|next| next.way != cell.way) {
-            self.ways.pop_front();
+        let open = self.open.as_ref().map_or(u64::MAX, |open| open.number);
+        let needed = self.cells.front().map_or(open, |next| next.way);
+        while self.first_way < needed && self.ways.pop_front().is_some() {
             self.first_way += 1;
         }
         if self.cells.is_empty() && self.open.is_none() {
@@ -278,19 +314,40 @@ impl Horizon {
     }
 }
 
-/// The legs of a cell from one squared speed to at most another.
-fn speed_up(cell: &Cell, x: f64, end: f64) -> Legs {
+/// The legs of a bent cell: as hard as the axes can towards the line of the highest speeds from which the rest can be
+/// kept to, and along that.
+fn speed_up_bent(cell: &Cell, x: f64, end: f64) -> Legs {
     let (start, length) = (cell.part[0], cell.length());
+    let (most, leads_to) = (cell.most, cell.leads_to);
+    let end = end.min(cell.allowed());
+    let [low, high] = cell.reach(x);
     let mut legs = Legs::default();
-    let Some(acceleration) = cell.straight() else {
-        let u = cell.hardest(x, end);
-        let reached = (x + 2.0 * u * length).max(0.0);
-        let (first, last) = (x.sqrt(), reached.sqrt());
-        let seconds = 2.0 * length / (first + last);
-        legs.push(Leg { s: start, speed: first, acceleration: u, seconds, ..Leg::default() });
+    let mut leg = |s: f64, [x, y]: [f64; 2], u: f64, length: f64| {
+        let [first, last] = [x, y].map(f64::sqrt);
+        legs.push(Leg { s, speed: first, acceleration: u, seconds: 2.0 * length / (first + last), ..Leg::default() });
+    };
+    let is_over = x > most;
+    let hardest = if is_over { low } else { high };
+    let meets = if is_over { low < leads_to } else { high > end && leads_to >= end };
+    if !meets {
+        let reached = if is_over { low } else { high.min(end) }.max(0.0);
+        leg(start, [x, reached], (reached - x) / (2.0 * length), length);
         legs.end = Some(reached);
         return legs;
-    };
+    }
+    // Two lines of x over the way: where they meet.
+    let way = ((most - x) * length / ((hardest - x) - (leads_to - most))).clamp(0.0, length);
+    let met = (most + (leads_to - most) * (way / length)).max(0.0);
+    leg(start, [x, met], (hardest - x) / (2.0 * length), way);
+    leg(start + way, [met, leads_to], (leads_to - most) / (2.0 * length), length - way);
+    legs.end = Some(leads_to);
+    legs
+}
+
+/// The legs of a straight cell from one squared speed to at most another.
+fn speed_up(cell: &Cell, acceleration: f64, x: f64, end: f64) -> Legs {
+    let (start, length) = (cell.part[0], cell.length());
+    let mut legs = Legs::default();
     let allowed = cell.allowed();
     let double = 2.0 * acceleration;
     let end = end.min(allowed).min(x + double * length).max(x - double * length);
@@ -324,16 +381,24 @@ fn speed_up(cell: &Cell, x: f64, end: f64) -> Legs {
 fn slow_down(cell: &Cell, x: f64) -> Legs {
     let (start, length) = (cell.part[0], cell.length());
     let mut legs = Legs::default();
-    let u = cell.softest(x);
     let speed = x.sqrt();
-    let reached = x + 2.0 * u * length;
-    if reached > 0.0 {
-        let seconds = 2.0 * length / (speed + reached.sqrt());
-        legs.push(Leg { s: start, speed, acceleration: u, seconds, ..Leg::default() });
-        legs.end = Some(reached);
-    } else {
-        legs.push(Leg { s: start, speed, acceleration: u, seconds: speed / -u, ..Leg::default() });
+    if let Some(u) = cell.to_stand(x) {
+        legs.push(Leg {
+            s: start,
+            speed,
+            acceleration: u,
+            seconds: if x > 0.0 { speed / -u } else { 0.0 },
+            ..Leg::default()
+        });
+        return legs;
     }
+    let reached = match cell.acceleration() {
+        Some(acceleration) => x - 2.0 * acceleration * length,
+        None => cell.reach(x)[0].max(0.0),
+    };
+    let seconds = 2.0 * length / (speed + reached.sqrt());
+    legs.push(Leg { s: start, speed, acceleration: (reached - x) / (2.0 * length), seconds, ..Leg::default() });
+    legs.end = Some(reached);
     legs
 }
 

@@ -32,9 +32,16 @@ impl Horizon {
         self.settle();
     }
 
+    /// The cell in which the next move ends.
+    pub(super) fn next_end(&self) -> Option<usize> {
+        // Of a corner under way the first half may be done.
+        let from = usize::from(self.is_border_passed());
+        (from..self.cells.len()).find(|&index| self.cells[index].ends != Ends::Not)
+    }
+
     /// True if the next move can be driven as fast as if all the rest were known.
     fn next_is_settled(&self) -> bool {
-        let end = self.cells.iter().position(|cell| cell.ends != Ends::Not);
+        let end = self.next_end();
         // What is driven in a cell depends on the speed with which the next may begin.
         end.is_some_and(|end| end + 1 < self.settled || self.cells[end].stops)
     }
@@ -51,13 +58,15 @@ impl Horizon {
     fn settle(&mut self) {
         let seen = self.cells.len();
         let mut final_from = if self.closed { seen } else { self.settled };
-        for index in (self.settled..seen).rev() {
+        // The last final one again: its own speed stays, but it may now lead to a higher one.
+        for index in (self.settled.saturating_sub(1)..seen).rev() {
             let end = self.end_of(index);
             let cell = &mut self.cells[index];
-            cell.most = cell.most_before(end);
+            (cell.most, cell.leads_to) = cell.most_before(end);
             if final_from <= index {
                 // Its own limits hold it, or a stop: not where the look-ahead ends.
-                let is_held = cell.stops || cell.most >= cell.allowed() || cell.most >= cell.most_before(f64::INFINITY);
+                let is_held =
+                    cell.stops || cell.most >= cell.allowed() || cell.most >= cell.most_before(f64::INFINITY).0;
                 if is_held {
                     final_from = index + 1;
                 }

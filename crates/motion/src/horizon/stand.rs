@@ -1,7 +1,7 @@
 //! The axes stand at the end of the first move at whose end they can: what follows it is no longer known.
 
 use super::Horizon;
-use crate::cell::{Cell, Ends};
+use crate::cell::{Cell, Edge, Ends};
 
 /// A speed as little above what can be braked from is rounding.
 const ROUNDING: f64 = 1.0 + 1e-9;
@@ -30,9 +30,10 @@ impl Horizon {
 
     /// True if the axes can stand where the move ends that ends in this cell.
     fn can_stand(&self, last: usize) -> bool {
-        let mut most = self.up_to_border(last).most_before(0.0);
+        let (mut most, _) = self.up_to_border(last).most_before(0.0);
         for cell in self.cells.range(..last).rev() {
-            most = if cell.stops { cell.most_before(0.0) } else { cell.most_before(most * cell.gain) };
+            let end = if cell.stops { 0.0 } else { most * cell.gain };
+            most = cell.most_before(end).0;
         }
         self.speed_squared() <= most * ROUNDING
     }
@@ -42,7 +43,9 @@ impl Horizon {
         let cell = &self.cells[index];
         let (Ends::At(border), Some(way)) = (cell.ends, self.way(cell.way)) else { return *cell };
         let part = [cell.part[0], border.max(cell.part[0])];
-        let mut part = Cell::new(&self.limits, (cell.way, way), part, self.rate(cell.moves[0]));
+        let edges = part.map(|s| Edge::new(way, s));
+        let rate = self.rate(cell.moves);
+        let mut part = Cell::bent(&self.limits, cell.way, part, [&edges[0], &edges[1]], rate, cell.share);
         (part.moves, part.feed_allows) = (cell.moves, cell.feed_allows);
         part
     }

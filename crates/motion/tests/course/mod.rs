@@ -1,5 +1,11 @@
 //! Courses for the tests: moves of a plane or of space, driven from rest to rest, looked at as closely as one likes.
 
+#![allow(dead_code)] // every test takes what it needs
+
+pub mod program;
+pub mod random;
+pub mod watch;
+
 use base::{AXES, Point};
 use meaning::{ArcMove, Feed, Plane};
 use motion::{AxisLimits, Horizon, Leg, Limits, Move, Way};

@@ -1,0 +1,87 @@
+//! Random programs, driven period by period: no limit is passed, the path is not left, every stop is where it should be.
+//!
+//! The environment can ask for more of them: PROGRAMS=10000.
+
+mod course;
+
+use std::panic::AssertUnwindSafe;
+
+use course::program::{Program, program};
+use course::random::{Random, samples_asked};
+use course::watch::{Act, move_times, watch};
+use motion::Overrides;
+
+const PROGRAMS: u64 = 300;
+/// How far two ways of driving may differ in the time of a whole program, relative: rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Runs a check over many programs and tells of the first ones that fail, and of how many do.
+fn over_programs(check: impl Fn(u64, &Program) -> Result<(), String>) {
+    let wanted = samples_asked(PROGRAMS);
+    let mut wrong = Vec::new();
+    for seed in std::env::var("PROGRAM").map_or(0..wanted, |one| one.parse().map_or(0..0, |one: u64| one..one + 1)) {
+        let program = program(seed);
+        let checked = std::panic::catch_unwind(AssertUnwindSafe(|| check(seed, &program)));
+        if let Err(what) = checked.unwrap_or_else(|_| Err("it panics".to_owned())) {
+            wrong.push(format!("program {seed}: {what}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {wanted} programs:\n{}", wrong.len(), wrong[..wrong.len().min(25)].join("\n"));
+}
+
+fn agree(one: &[f64], other: &[f64], what: &str) -> Result<(), String> {
+    let whole: f64 = one.iter().sum();
+    if one.len() != other.len() {
+        return Err(format!("{what}: {} and {} moves", one.len(), other.len()));
+    }
+    for (index, (one, other)) in one.iter().zip(other).enumerate() {
+        if !((one - other).abs() <= ROUNDING * whole) {
+            return Err(format!("{what}: move {index} takes {one} s and {other} s"));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn nothing_is_passed_and_nothing_is_left() {
+    over_programs(|_, program| {
+        let run = watch(program, &[])?;
+        agree(&run.times, &move_times(program, false), "period by period, and move by move")
+    });
+}
+
+#[test]
+fn the_time_does_not_depend_on_how_much_is_seen_beyond_what_is_asked_for() {
+    over_programs(|_, program| {
+        agree(&move_times(program, true), &move_times(program, false), "all seen, and as asked")
+    });
+}
+
+#[test]
+fn the_operator_may_do_what_he_likes_when_he_likes() {
+    over_programs(|seed, program| {
+        let mut random = Random::new(seed ^ 0xACE5);
+        let seconds: f64 = move_times(program, false).iter().sum();
+        let periods = ((seconds / program.limits.servo_period) as usize).min(4000) + 1;
+        let mut acts = Vec::new();
+        let (mut at, mut held) = (0, false);
+        for _ in 0..random.between(1.0, 12.0) as usize {
+            let (few, any) = (random.below(20), random.below(periods));
+            at += random.pick(&[0, 1, 2, few, any]);
+            let act = if random.chance(0.4) {
+                held = !held;
+                Act::Hold(held)
+            } else {
+                let any = random.between(0.0, 2.0);
+                let feed = random.pick(&[0.0, 0.01, 0.5, 1.0, 1.5, 2.0, any]);
+                let rapid = random.pick(&[0.25, 0.5, 1.0]);
+                Act::Override(Overrides { feed, rapid, ..Overrides::default() })
+            };
+            acts.push((at, act));
+        }
+        at += random.below(200);
+        acts.push((at, Act::Hold(false)));
+        acts.push((at, Act::Override(Overrides::default())));
+        watch(program, &acts).map(|_| ()).map_err(|what| format!("{what}\n   {acts:?}"))
+    });
+}
