@@ -173,7 +173,7 @@ impl Engine {
 }
 
 fn drive_on_the_way(horizon: &mut Horizon, mut kept: Option<&mut Kept>) -> (f64, Pace) {
-    let asked = horizon.next_asks() as f32;
+    let asked = horizon.next_asks();
     let mut allowed = f32::INFINITY;
     let mut pace: Option<Pace> = None;
     let seconds = horizon.drive_move(|way: &Way, axes_allow: f64, leg: &Leg| {
@@ -188,11 +188,11 @@ fn drive_on_the_way(horizon: &mut Horizon, mut kept: Option<&mut Kept>) -> (f64,
             kept.stretches.push(crate::Stretch { way: *way, leg: *leg });
         }
     });
-    (seconds, Pace { allowed: allowed.min(asked), ..pace.unwrap_or_default() })
+    (seconds, Pace { allowed: allowed.min(asked as f32), ..pace.unwrap_or_default() })
 }
 
 fn drive_beside_it(classic: &mut Interpolator, asked: f64, mut kept: Option<&mut Kept>) -> (f64, Pace) {
-    let mut pace = Pace { asked: asked as f32, allowed: asked as f32, ..Pace::default() };
+    let mut pace = Pace { asked, allowed: asked as f32, ..Pace::default() };
     let mut before = 0.0;
     let seconds = classic.drive_move(|spell| {
         pace.top = pace.top.max(spell.speed as f32);
