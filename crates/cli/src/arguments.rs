@@ -29,8 +29,15 @@ pub struct CommandLine {
 #[derive(Subcommand, Debug)]
 pub enum Command {
     /// Run a program on the virtual machine to its end, with progress and a summary
-    #[command(after_help = "Example:\n  cyclestart run part.nc --setup part.setup.toml --switch optional-stop")]
+    #[command(
+        after_help = "The time left on the terminal is that of the run itself: a run that is not over after half a second is first run through once without times, to count its work (a fifth of the run). Of standard input only the blocks done are known.\n\nExample:\n  cyclestart run part.nc --setup part.setup.toml --switch optional-stop"
+    )]
     Run(RunArguments),
+    /// Say where the cycle time goes: by kind of move, tool and operation; which blocks lose most, and why
+    #[command(
+        after_help = "An operation begins with a tool change or with a remark on a line of its own, which names it; where none does, a subprogram is one, or a canned cycle. Lost is what of cutting and rapid is more than at F, or at the rapid rate, throughout.\n\nExamples:\n  cyclestart time part.nc --setup part.setup.toml\n  cyclestart time part.nc --setup part.setup.toml --why"
+    )]
+    Time(TimeArguments),
     /// Find every alarm the control would raise and what is legal and dangerous, without motion
     #[command(
         after_help = "Warnings alone end with exit code 0; see --deny and --allow.\n\nExample:\n  cyclestart check programs/ --format github --deny integer-coordinate"
@@ -138,6 +145,22 @@ pub struct RunArguments {
     /// The program, - for standard input
     pub file: String,
     /// Print the summary as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// The control and its set-up.
+    #[command(flatten)]
+    pub setting: SettingArguments,
+}
+
+/// `time`
+#[derive(Args, Debug)]
+pub struct TimeArguments {
+    /// The program, - for standard input
+    pub file: String,
+    /// Also the five blocks that lose most time, what holds them, and what would help
+    #[arg(long)]
+    pub why: bool,
+    /// Print the object of `run --json`, with --why also the blocks
     #[arg(long)]
     pub json: bool,
     /// The control and its set-up.

@@ -12,6 +12,7 @@ pub mod plot;
 pub mod run;
 pub mod sheet;
 pub mod tape;
+pub mod time;
 pub mod trace;
 
 use base::{ProgramId, SourceId};

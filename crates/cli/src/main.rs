@@ -7,6 +7,7 @@ mod command;
 mod failure;
 mod named_programs;
 mod output;
+mod progress;
 mod replace;
 mod setting;
 mod show_alarm;
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
 fn run(command: Command) -> Result<bool, Failure> {
     match command {
         Command::Run(arguments) => command::run::run(&arguments),
+        Command::Time(arguments) => command::time::time(&arguments),
         Command::Check(arguments) => command::check::check(&arguments),
         Command::Trace(arguments) => command::trace::trace(&arguments),
         Command::Operate(arguments) => command::operate::operate(&arguments),

@@ -196,7 +196,7 @@ impl Engine {
 }
 
 fn drive_on_the_way(horizon: &mut Horizon, kept: Option<&mut Kept>) -> (f64, Pace) {
-    let asked = horizon.next_asks() as f32;
+    let asked = horizon.next_asks();
     let mut notes = Notes { pace: None, asked, kept };
     let mut allowed = f32::INFINITY;
     let seconds = horizon.drive_move(|way, axes_allow, leg| {
@@ -205,20 +205,19 @@ fn drive_on_the_way(horizon: &mut Horizon, kept: Option<&mut Kept>) -> (f64, Pac
         }
         notes.take(way, leg);
     });
-    (seconds, Pace { allowed: allowed.min(asked), ..notes.pace.unwrap_or_default() })
+    (seconds, Pace { allowed: allowed.min(asked as f32), ..notes.pace.unwrap_or_default() })
 }
 
 fn drive_smoothly(horizon: &mut JerkHorizon, asked: f64, kept: Option<&mut Kept>) -> (f64, Pace) {
-    let asked = asked as f32;
     let mut notes = Notes { pace: None, asked, kept };
     let seconds = horizon.drive_move(|way, leg| notes.take(way, leg));
-    (seconds, Pace { allowed: asked, ..notes.pace.unwrap_or_default() })
+    (seconds, Pace { allowed: asked as f32, ..notes.pace.unwrap_or_default() })
 }
 
 /// What is noted of a move's legs.
 struct Notes<'k> {
     pace: Option<Pace>,
-    asked: f32,
+    asked: f64,
     kept: Option<&'k mut Kept>,
 }
 
@@ -235,7 +234,7 @@ impl Notes<'_> {
 }
 
 fn drive_beside_it(classic: &mut Interpolator, asked: f64, mut kept: Option<&mut Kept>) -> (f64, Pace) {
-    let mut pace = Pace { asked: asked as f32, allowed: asked as f32, ..Pace::default() };
+    let mut pace = Pace { asked, allowed: asked as f32, ..Pace::default() };
     let mut before = 0.0;
     let seconds = classic.drive_move(|spell| {
         pace.top = pace.top.max(spell.speed as f32);

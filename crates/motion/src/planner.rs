@@ -32,7 +32,7 @@ pub enum Ahead {
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Pace {
     /// The speed that it asks for, overrides counted in; of positioning the one at which every axis runs at its rate.
-    pub asked: f32,
+    pub asked: f64,
     /// What the axes' limits leave of that on its straight or round part.
     pub allowed: f32,
     /// At its start.

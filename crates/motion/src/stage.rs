@@ -246,7 +246,7 @@ impl Motion {
     /// The present move has been driven to its end in this time, s.
     pub fn end(&mut self, seconds: f64) {
         let timed = self.time(self.upstream.current());
-        let speed = (self.overrides.commanded(&feed_of(timed.shaped)) / 60.0) as f32;
+        let speed = self.overrides.commanded(&feed_of(timed.shaped)) / 60.0;
         let pace = if self.positioning.is_some() { timed.pace } else { Pace { asked: speed, ..Pace::default() } };
         self.positioning = None;
         self.planned = Some((seconds, pace));
@@ -326,8 +326,8 @@ impl Motion {
             Shape::Rapid { from, to, .. } => {
                 let rapid = self.rapid(from, to);
                 if self.planner.is_some() {
-                    let asked = self.rapid_rate(from, to, rapid.1) as f32;
-                    pace = Pace { asked, allowed: asked, ..pace };
+                    let asked = self.rapid_rate(from, to, rapid.1);
+                    pace = Pace { asked, allowed: asked as f32, ..pace };
                 }
                 rapid
             }

@@ -4,11 +4,13 @@
 
 mod control_table;
 mod coverage;
+mod cycle_time;
 mod excerpt;
 mod explain;
 mod face;
 mod house_style;
 mod json;
+mod losses;
 mod paint;
 mod remarks;
 mod sheet;
@@ -18,11 +20,13 @@ mod trace;
 
 pub use control_table::{control_list, control_table};
 pub use coverage::{CoveredRow, CoveringCase, coverage, rows_of};
+pub use cycle_time::{Naming, Split, time_text};
 pub use excerpt::Excerpt;
 pub use explain::{Explanation, Wanted, Watch, Watched, explain, explanation_json, explanation_text};
 pub use face::{Format, Rules, begin, end, render, render_with_labels, separator};
 pub use house_style::{Formatted, HouseStyle, Numbering, house_style};
 pub use json::{JsonLine, push_number};
+pub use losses::{Cause, Loss, Losses, why_text};
 pub use paint::Paint;
 pub use sheet::{Sheet, ToolSheet, sheet_html, sheet_json, sheet_text};
 pub use side_by_side::{

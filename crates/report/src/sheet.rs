@@ -19,6 +19,7 @@ pub use json::sheet_json;
 pub use text::sheet_text;
 pub use tool::ToolSheet;
 
+pub(crate) use shop_floor::TOOL_CHANGE;
 use watcher::Watcher;
 
 /// Seconds of a run.

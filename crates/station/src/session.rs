@@ -13,7 +13,7 @@ use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
 use machine::{Event, EventKind, Machine, VirtualMachine};
 use meaning::Interpreter;
 use motion::Motion;
-use path::{Path, RunBeside, Shaped};
+use path::{Path, RunBeside, Shape, Shaped};
 
 use crate::configuration::{Configuration, Inputs};
 use crate::library::{Library, LibraryError};
@@ -265,6 +265,14 @@ impl<L: Library> Session<L> {
     /// the tool does not fit beside.
     pub fn beside(&self) -> Option<&RunBeside> {
         self.motion.upstream.current().beside.as_ref()
+    }
+
+    /// True if the move handed out last ends with an exact stop that the program asks for.
+    pub fn stops_exactly(&self) -> bool {
+        match &self.motion.upstream.current().shape {
+            Shape::Line { feed, .. } | Shape::Arc { feed, .. } => feed.exact_stop,
+            _ => false,
+        }
     }
 
     /// Chooses the program to run, which begins at `head` in its text.

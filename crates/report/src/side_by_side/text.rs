@@ -151,10 +151,10 @@ fn table(summaries: &[Summary; 2], out: &mut String) {
         let change = if short(two - one) == "0" { String::new() } else { signed(short(two - one)) + " s" };
         row(name, [&seconds(one), &seconds(two), &change], out);
     };
-    time("cutting", |summary| summary.cutting, out);
-    time("rapid", |summary| summary.rapid, out);
-    time("dwell", |summary| summary.dwell, out);
-    time("waiting for FIN", |summary| summary.waiting, out);
+    time("cutting", |summary| summary.times.cutting, out);
+    time("rapid", |summary| summary.times.rapid, out);
+    time("dwell", |summary| summary.times.dwell, out);
+    time("waiting for FIN", |summary| summary.times.waiting, out);
     time("cycle time", Summary::total, out);
     count("alarms", |summary| summary.alarm_count, out);
 }
