@@ -48,6 +48,7 @@ bench: build ## measure: speed beside a peer, memory; prints command, sample, fi
 	python3 benches/memory.py
 	python3 benches/compensation.py
 	python3 benches/beside_linuxcnc.py
+	python3 benches/linuxcnc_times.py
 
 fuzz: cargo ## throw random programs at the reader and at the whole interpreter, FUZZ_SECONDS=60 each
 	ci/fuzz.sh read
