@@ -47,6 +47,8 @@ bench: build ## measure: speed beside a peer, memory; prints command, sample, fi
 	python3 benches/macro_loop.py
 	python3 benches/memory.py
 	python3 benches/compensation.py
+	python3 benches/shift.py
+	python3 benches/progress.py
 	python3 benches/beside_linuxcnc.py
 	python3 benches/linuxcnc_times.py
 

@@ -30,7 +30,7 @@ pub struct CommandLine {
 pub enum Command {
     /// Run a program on the virtual machine to its end, with progress and a summary
     #[command(
-        after_help = "The time left on the terminal is that of the run itself: a run that is not over after half a second is first run through once without times, to count its work (a fifth of the run). Of standard input only the blocks done are known.\n\nExample:\n  cyclestart run part.nc --setup part.setup.toml --switch optional-stop"
+        after_help = "The time left on the terminal is that of the run itself: a run that is not over after half a second is first run through once without times, to count its work (that takes a fifth to a third of the run). Of standard input only the blocks done are known.\n\nExample:\n  cyclestart run part.nc --setup part.setup.toml --switch optional-stop"
     )]
     Run(RunArguments),
     /// Say where the cycle time goes: by kind of move, tool and operation; which blocks lose most, and why

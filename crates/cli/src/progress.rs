@@ -21,22 +21,40 @@ const PICTURE: Duration = Duration::from_millis(200);
 /// Steps of the bar.
 const STEPS: u64 = 1000;
 
-/// What the parts of a run cost beside each other (`python3 benches/progress.py weights` measures them).
-const BLOCK: f64 = 1.0;
-const LINE: f64 = 1.0;
-const ARC: f64 = 2.0;
-const ARC_CELL: f64 = 0.3;
-const OTHER: f64 = 0.3;
-/// Radians of an arc that are planned together.
+/// What the parts of a run cost, microseconds where they were measured (`python3 benches/progress.py weights`); what
+/// they cost beside each other is all that counts.
+const BLOCK: f64 = 0.4;
+const CUT: f64 = 1.45;
+/// Behind something that is no cut, nothing is planned together with it.
+const LONE_CUT: f64 = 0.7;
+const ARC_CELL: f64 = 0.29;
+const OTHER: f64 = 0.2;
+/// Radians of an arc that are planned together, and most of them in one.
 const CELL: f64 = 0.08;
+const MOST_CELLS: f64 = 512.0;
 
-/// What an event stands for in work.
-fn work(event: &Event) -> f64 {
-    match &event.kind {
-        EventKind::BlockDone => BLOCK,
-        EventKind::Feed { .. } => LINE,
-        EventKind::Arc { arc, .. } => ARC + ARC_CELL * (arc.sweep.abs() / CELL).min(512.0),
-        _ => OTHER,
+/// The work of a run, added up event by event.
+#[derive(Default)]
+struct Work {
+    all: f64,
+    /// The last move was a cut.
+    cutting: bool,
+}
+
+impl Work {
+    fn add(&mut self, event: &Event) {
+        let cut = if self.cutting { CUT } else { LONE_CUT };
+        self.all += match &event.kind {
+            EventKind::BlockDone => BLOCK,
+            EventKind::Feed { .. } => cut,
+            EventKind::Arc { arc, .. } => cut + ARC_CELL * (arc.sweep.abs() / CELL).min(MOST_CELLS),
+            _ => OTHER,
+        };
+        match &event.kind {
+            EventKind::Feed { .. } | EventKind::Arc { .. } => self.cutting = true,
+            EventKind::Rapid { .. } => self.cutting = false,
+            _ => {}
+        }
     }
 }
 
@@ -47,7 +65,7 @@ pub struct Progress {
     counted: Option<(String, SettingArguments)>,
     /// All that is to do, once it is counted.
     all: Option<f64>,
-    done: f64,
+    done: Work,
     blocks: u64,
     since_look: u32,
     begun: Instant,
@@ -67,7 +85,7 @@ impl Progress {
             bar,
             counted: can_count.then(|| (file.to_owned(), setting.clone())),
             all: None,
-            done: 0.0,
+            done: Work::default(),
             blocks: 0,
             since_look: 0,
             begun: now,
@@ -89,7 +107,7 @@ impl Progress {
         if self.bar.is_hidden() {
             return;
         }
-        self.done += work(event);
+        self.done.add(event);
         self.blocks += u64::from(matches!(event.kind, EventKind::BlockDone));
         self.since_look += 1;
         if self.since_look >= EVENTS_A_LOOK {
@@ -121,7 +139,7 @@ impl Progress {
                 self.bar.tick();
             }
             Some(all) => {
-                let part = (self.done / all).min(1.0);
+                let part = (self.done.all / all).min(1.0);
                 let spent = (self.begun.elapsed() - self.counting).as_secs_f64();
                 let left = spent * (1.0 - part) / part;
                 self.bar.set_message(format!("{} blocks done, {} left", self.blocks, period(left)));
@@ -144,13 +162,13 @@ impl Progress {
 /// The work of a run, counted by running it without times; nothing if that cannot be done.
 fn count(file: &str, setting: &SettingArguments) -> Option<f64> {
     let mut session = open(file, setting).ok()?;
-    let mut all = 0.0;
+    let mut work = Work::default();
     run_through(&mut session, setting.repeat, |_, event| {
-        all += work(event);
+        work.add(event);
         Ok(())
     })
     .ok()?;
-    Some(all)
+    Some(work.all)
 }
 
 /// Seconds as they are said of a wait.
