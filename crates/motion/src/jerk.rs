@@ -1,6 +1,6 @@
 //! What the control sees of the path before it, under model `jerk`.
 //!
-//! A *run* is what lies between two stops. In it the path is rounded so that its bend is steady ([`stretch`], [`rounding`]) and
+//! A *run* is what lies between two stops. In it the path is rounded so that its bend is steady ([`polygon`], [`rounding`]) and
 //! planned as if speed could change at a constant acceleration at once; what is driven is the mean of that plan over
 //! the last `T` seconds: `s(t) = 1/T ∫ p(τ) dτ` from `t - T` to `t`. Its speed and acceleration are then means of the
 //! plan's, and the acceleration changes by at most `2 u / T` (Biagiotti and Melchiorri, *FIR filters for online
@@ -16,9 +16,9 @@
 
 mod bounds;
 mod drive;
+mod polygon;
 mod rounding;
 mod settle;
-mod stretch;
 
 use std::collections::VecDeque;
 
@@ -27,9 +27,9 @@ use meaning::Feed;
 
 use bounds::{Allowance, Bounds};
 use drive::Drive;
+use polygon::Polygon;
 use rounding::Joint;
 use settle::Zones;
-use stretch::Stretch;
 
 use crate::horizon::Move;
 use crate::limits::{AxisLimits, Limits};
@@ -97,7 +97,7 @@ pub struct JerkHorizon {
     asked: VecDeque<Asked>,
     first_move: u64,
     /// The lines that have not been cut, and the last move.
-    stretch: Stretch,
+    polygon: Polygon,
     last: Option<Open>,
     /// The axes stand behind the last piece.
     closed: bool,
@@ -124,7 +124,7 @@ impl JerkHorizon {
             first_way: 0,
             asked: VecDeque::new(),
             first_move: 0,
-            stretch: Stretch::default(),
+            polygon: Polygon::default(),
             last: None,
             closed: false,
             zones: Zones::default(),
@@ -141,7 +141,7 @@ impl JerkHorizon {
         self.pieces.clear();
         self.ways.clear();
         self.asked.clear();
-        self.stretch.begin(0.0, 0, 0.0);
+        self.polygon.begin(0.0, 0, 0.0);
         self.last = None;
         self.closed = false;
         self.zones.clear();
@@ -218,42 +218,42 @@ impl JerkHorizon {
         let (mut change, mut goes_on) = ([0.0; AXES], false);
         match open.start {
             Joint::Corner(by) => (change, goes_on) = (by, true),
-            Joint::Passed => goes_on = !self.stretch.is_cut(),
+            Joint::Passed => goes_on = !self.polygon.is_cut(),
             _ => {}
         }
         if !goes_on {
             let arm = if let Joint::Arms(arm) = open.start { arm } else { 0.0 };
-            self.stretch.begin(self.limits.corner_tolerance, self.limits.count, arm);
+            self.polygon.begin(self.limits.corner_tolerance, self.limits.count, arm);
         }
-        self.stretch.add(&open.way, open.mover, change);
+        self.polygon.add(&open.way, open.mover, change);
         self.cut_lines();
     }
 
     /// Cuts the lines of which enough is known.
     fn cut_lines(&mut self) {
-        let mut stretch = std::mem::take(&mut self.stretch);
-        while let Some(mover) = stretch.cut() {
-            for way in stretch.pieces() {
+        let mut polygon = std::mem::take(&mut self.polygon);
+        while let Some(mover) = polygon.cut() {
+            for way in polygon.pieces() {
                 self.push(way, 0.0, way.length(), [mover; 2]);
             }
             if let Some(piece) = self.pieces.back_mut() {
                 piece.ends = true;
             }
         }
-        self.stretch = stretch;
+        self.polygon = polygon;
     }
 
     fn end_way(&mut self, last: &Open, end: &Joint) {
         let arm = |joint: &Joint| if let Joint::Arms(arm) = joint { *arm } else { 0.0 };
         if last.way.is_straight() {
-            self.stretch.end(arm(end));
+            self.polygon.end(arm(end));
             self.cut_lines();
         } else {
             let from = arm(&last.start);
             self.push(&last.way, from, last.way.length() - arm(end) - from, [last.mover; 2]);
         }
         let stops = *end == Joint::Rest;
-        let stroke = stops && last.start == Joint::Rest && last.way.is_straight() && self.stretch.is_single();
+        let stroke = stops && last.start == Joint::Rest && last.way.is_straight() && self.polygon.is_single();
         if let Some(piece) = self.pieces.back_mut() {
             // Half of the arms belongs to the move.
             (piece.ends, piece.stops, piece.stroke) = (!matches!(end, Joint::Arms(_)), stops, stroke);

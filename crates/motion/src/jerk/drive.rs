@@ -374,7 +374,7 @@ impl JerkHorizon {
         self.ready = false;
         // A corner's feed is that of both moves: the first stays until its corner is driven.
         let last = self.last.as_ref().map_or(u64::MAX, |open| open.mover);
-        let open = self.stretch.first_mover().map_or(last, |first| first.min(last));
+        let open = self.polygon.first_mover().map_or(last, |first| first.min(last));
         let needed = self.pieces.front().map_or(open, |piece| piece.moves[0]);
         while self.first_move < needed && self.asked.pop_front().is_some() {
             self.first_move += 1;

@@ -1,6 +1,6 @@
 //! Corners and jumps of curvature under a limit of jerk: how they are rounded so that the bend of the way is steady.
 //!
-//! Lines are rounded together ([`stretch`](super::stretch)). Beside arcs three cubics of equal length, from an arm's length
+//! Lines are rounded together ([`polygon`](super::polygon)). Beside arcs three cubics of equal length, from an arm's length
 //! before the joint to the same length behind it, meet place, slope and bend of both ways. Where the direction does not
 //! jump, a jump `k` of the bend is left by only about `0.003 k arm²`.
 

@@ -49,7 +49,7 @@ struct Line {
 
 /// Lines between two ends.
 #[derive(Clone, Debug, Default)]
-pub struct Stretch {
+pub struct Polygon {
     tolerance: f64,
     axes: usize,
     /// The corners, of which the first `before` belong to lines that have been cut; and the other lines.
@@ -71,7 +71,7 @@ pub struct Stretch {
     knots: Vec<f64>,
 }
 
-impl Stretch {
+impl Polygon {
     /// Begins anew, an arm's length behind the start of the first line.
     pub fn begin(&mut self, tolerance: f64, axes: usize, arm: f64) {
         self.corners.clear();
@@ -113,7 +113,7 @@ impl Stretch {
         self.lines.is_empty()
     }
 
-    /// Cuts the next line if all that it depends on is known: its move; [`Stretch::pieces`] gives its pieces.
+    /// Cuts the next line if all that it depends on is known: its move; [`Polygon::pieces`] gives its pieces.
     pub fn cut(&mut self) -> Option<u64> {
         self.measure();
         self.settle();
@@ -318,7 +318,7 @@ mod tests {
 
     /// All pieces of a polygon.
     fn rounded(tolerance: f64, places: &[Point]) -> Vec<Way> {
-        let (mut stretch, mut ways) = (Stretch::default(), Vec::new());
+        let (mut stretch, mut ways) = (Polygon::default(), Vec::new());
         stretch.begin(tolerance, 2, 0.0);
         let mut before = None;
         for (mover, pair) in places.windows(2).enumerate() {
