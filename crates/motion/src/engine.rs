@@ -4,6 +4,7 @@ use base::Point;
 
 use crate::classic::Interpolator;
 use crate::horizon::{Horizon, Leg, Move, Setpoint};
+use crate::jerk::JerkHorizon;
 use crate::limits::{Limits, Model};
 use crate::overrides::Overrides;
 use crate::planner::Pace;
@@ -15,8 +16,10 @@ const KEPT_OF_A_SPELL: u32 = 64;
 /// A planner of one of the models.
 #[derive(Clone, Debug)]
 pub(crate) enum Engine {
-    /// Models `trapezoid` and, where nothing else is said, all others.
+    /// Model `trapezoid`, and `jerk` where no axis' jerk is limited.
     Horizon(Box<Horizon>),
+    /// Model `jerk`.
+    Jerk(Box<JerkHorizon>),
     /// Model `classic`.
     Classic(Box<Interpolator>),
 }
@@ -43,6 +46,9 @@ impl Engine {
     pub fn new(limits: Limits) -> Engine {
         match limits.model {
             Model::Classic(classic) => Engine::Classic(Box::new(Interpolator::new(limits, classic))),
+            Model::Jerk if limits.axes[..limits.count].iter().any(|axis| axis.jerk.is_finite()) => {
+                Engine::Jerk(Box::new(JerkHorizon::new(limits)))
+            }
             Model::Trapezoid | Model::Jerk => Engine::Horizon(Box::new(Horizon::new(limits))),
         }
     }
@@ -55,6 +61,7 @@ impl Engine {
     pub fn clear(&mut self) {
         match self {
             Engine::Horizon(horizon) => horizon.clear(),
+            Engine::Jerk(horizon) => horizon.clear(),
             Engine::Classic(classic) => classic.clear(),
         }
     }
@@ -62,6 +69,7 @@ impl Engine {
     pub fn is_closed(&self) -> bool {
         match self {
             Engine::Horizon(horizon) => horizon.is_closed(),
+            Engine::Jerk(horizon) => horizon.is_closed(),
             Engine::Classic(classic) => classic.is_closed(),
         }
     }
@@ -69,6 +77,7 @@ impl Engine {
     pub fn wants_more(&mut self) -> bool {
         match self {
             Engine::Horizon(horizon) => horizon.wants_more(),
+            Engine::Jerk(horizon) => horizon.wants_more(),
             Engine::Classic(classic) => classic.wants_more(),
         }
     }
@@ -76,6 +85,7 @@ impl Engine {
     pub fn add(&mut self, next: &Move) {
         match self {
             Engine::Horizon(horizon) => horizon.add(next),
+            Engine::Jerk(horizon) => horizon.add(next),
             Engine::Classic(classic) => classic.add(next),
         }
     }
@@ -84,6 +94,7 @@ impl Engine {
     pub fn add_rapid(&mut self, from: &Point, to: &Point, checked: bool) {
         match self {
             Engine::Horizon(horizon) => horizon.stop(),
+            Engine::Jerk(horizon) => horizon.stop(),
             Engine::Classic(classic) => classic.add_rapid(from, to, checked),
         }
     }
@@ -91,6 +102,7 @@ impl Engine {
     pub fn stop(&mut self) {
         match self {
             Engine::Horizon(horizon) => horizon.stop(),
+            Engine::Jerk(horizon) => horizon.stop(),
             Engine::Classic(classic) => classic.stop(),
         }
     }
@@ -112,7 +124,7 @@ impl Engine {
     /// The axes have stood for this time, s; how much longer they must for want of a block.
     pub fn pass(&mut self, seconds: f64) -> f64 {
         match self {
-            Engine::Horizon(_) => 0.0,
+            Engine::Horizon(_) | Engine::Jerk(_) => 0.0,
             Engine::Classic(classic) => classic.pass(seconds),
         }
     }
@@ -120,6 +132,7 @@ impl Engine {
     pub fn set_overrides(&mut self, overrides: Overrides) {
         match self {
             Engine::Horizon(horizon) => horizon.set_overrides(overrides),
+            Engine::Jerk(horizon) => horizon.set_overrides(overrides),
             Engine::Classic(classic) => classic.set_overrides(overrides),
         }
     }
@@ -127,6 +140,7 @@ impl Engine {
     pub fn hold(&mut self, held: bool) {
         match self {
             Engine::Horizon(horizon) => horizon.hold(held),
+            Engine::Jerk(horizon) => horizon.hold(held),
             Engine::Classic(classic) => classic.hold(held),
         }
     }
@@ -135,6 +149,7 @@ impl Engine {
     pub fn stand_soon(&mut self, shown: usize) -> usize {
         match self {
             Engine::Horizon(horizon) => horizon.stand_soon(),
+            Engine::Jerk(horizon) => horizon.stand_soon(),
             Engine::Classic(classic) => {
                 classic.stop();
                 shown
@@ -145,6 +160,7 @@ impl Engine {
     pub fn drive_for(&mut self, seconds: f64) -> (f64, bool) {
         match self {
             Engine::Horizon(horizon) => horizon.drive_for(seconds),
+            Engine::Jerk(horizon) => horizon.drive_for(seconds),
             Engine::Classic(classic) => classic.drive_for(seconds),
         }
     }
@@ -152,6 +168,7 @@ impl Engine {
     pub fn setpoint(&self) -> Option<Setpoint> {
         match self {
             Engine::Horizon(horizon) => horizon.setpoint(),
+            Engine::Jerk(horizon) => horizon.setpoint(),
             Engine::Classic(classic) => classic.setpoint(),
         }
     }
@@ -159,6 +176,7 @@ impl Engine {
     pub fn is_standing(&self) -> bool {
         match self {
             Engine::Horizon(horizon) => horizon.is_standing(),
+            Engine::Jerk(horizon) => horizon.is_standing(),
             Engine::Classic(classic) => classic.is_standing(),
         }
     }
@@ -166,17 +184,28 @@ impl Engine {
     /// Drives the next move to its end: its time, s, and how it runs. What it asks for is `asked`, mm/s.
     pub fn drive(&mut self, asked: f64, kept: Option<&mut Kept>) -> (f64, Pace) {
         match self {
-            Engine::Horizon(horizon) => drive_on_the_way(horizon, kept),
+            Engine::Horizon(horizon) => {
+                let asks = horizon.next_asks();
+                drive_on_the_way(asks, kept, |leg| horizon.drive_move(leg))
+            }
+            Engine::Jerk(horizon) => {
+                let asks = horizon.next_asks();
+                drive_on_the_way(asks, kept, |leg| horizon.drive_move(leg))
+            }
             Engine::Classic(classic) => drive_beside_it(classic, asked, kept),
         }
     }
 }
 
-fn drive_on_the_way(horizon: &mut Horizon, mut kept: Option<&mut Kept>) -> (f64, Pace) {
-    let asked = horizon.next_asks() as f32;
+fn drive_on_the_way(
+    asks: f64,
+    mut kept: Option<&mut Kept>,
+    drive_move: impl FnOnce(&mut dyn FnMut(&Way, f64, &Leg)) -> f64,
+) -> (f64, Pace) {
+    let asked = asks as f32;
     let mut allowed = f32::INFINITY;
     let mut pace: Option<Pace> = None;
-    let seconds = horizon.drive_move(|way: &Way, axes_allow: f64, leg: &Leg| {
+    let seconds = drive_move(&mut |way: &Way, axes_allow: f64, leg: &Leg| {
         let (speed, end) = (leg.speed as f32, leg.at(leg.seconds).1 as f32);
         let pace = pace.get_or_insert(Pace { asked, start: speed, ..Pace::default() });
         pace.top = pace.top.max(speed).max(end);

@@ -19,10 +19,11 @@ mod drive;
 mod polygon;
 mod rounding;
 mod settle;
+mod stand;
 
 use std::collections::VecDeque;
 
-use base::AXES;
+use base::{AXES, Point};
 use meaning::Feed;
 
 use bounds::{Allowance, Bounds};
@@ -48,6 +49,8 @@ const TOO_SHORT: f64 = 2.0;
 struct Asked {
     feed: Feed,
     share: f64,
+    /// Where it ends.
+    to: Point,
 }
 
 /// A move whose end is not known yet.
@@ -70,6 +73,8 @@ struct Piece {
     /// What the axes allow, all zones counted in: mm/s and mm/s².
     fastest: f64,
     push: f64,
+    /// What they allow on the piece itself, mm/s.
+    own: f64,
     /// What the commanded feed allows, overrides counted in, mm/s.
     feed: f64,
     /// The highest squared speed of the plan at its start from which all the rest can be kept to.
@@ -163,7 +168,8 @@ impl JerkHorizon {
     pub fn add(&mut self, next: &Move) {
         debug_assert!(!self.closed && next.way.length() > 0.0, "nothing is seen behind a stop");
         let mover = self.first_move + self.asked.len() as u64;
-        self.asked.push_back(Asked { feed: next.feed, share: next.share });
+        let to = next.way.at(next.way.length());
+        self.asked.push_back(Asked { feed: next.feed, share: next.share, to });
         self.ready = false;
         let mut open = Open { way: next.way, mover, start: Joint::Rest };
         if let Some(last) = self.last.take() {
@@ -300,6 +306,7 @@ impl JerkHorizon {
             length,
             fastest,
             push,
+            own: fastest,
             feed: 0.0,
             most: 0.0,
             window: self.window,
@@ -333,6 +340,12 @@ impl JerkHorizon {
             let feed = asked.feed.mm_per_min * HIGHEST_OVERRIDE;
             feed.max(self.overrides.actual(&asked.feed)) / 60.0 * asked.share
         })
+    }
+
+    /// The speed that the next move to end asks for, mm/s along its way, overrides counted in.
+    pub fn next_asks(&self) -> f64 {
+        let next = self.pieces.iter().find(|piece| piece.ends);
+        next.map_or(0.0, |piece| self.feed_allows(&Piece { moves: [piece.moves[0]; 2], fastest: piece.own, ..*piece }))
     }
 
     /// The window that suits a move best: a ramp from rest to its speed is then shortest.

@@ -59,6 +59,13 @@ pub struct Limits {
     pub servo_period: f64,
 }
 
+impl Limits {
+    /// The jerk of an axis as its model keeps to it, mm/s³.
+    pub fn jerk(&self, axis: usize) -> f64 {
+        if self.model == Model::Jerk { self.axes[axis].jerk } else { f64::INFINITY }
+    }
+}
+
 impl Default for Limits {
     /// No axis, exact corners, setpoints every millisecond.
     fn default() -> Self {

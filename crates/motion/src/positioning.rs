@@ -1,59 +1,32 @@
-//! Positioning as it happens: every axis, or the straight line, on its own trapezoid, held and released anywhere.
+//! Positioning as it happens: every axis, or the straight line, on its own S-curve (without a limit of jerk that is a
+//! trapezoid), held and released anywhere.
 
 use base::{AXES, Point};
 
 use crate::horizon::Setpoint;
-
-/// A time as short as this has passed, s.
-const INSTANT_S: f64 = 1e-12;
+use crate::stroke::Stroke;
 
 /// One coordinate on its way to rest at its end.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 struct Runner {
-    at: f64,
-    speed: f64,
+    from: f64,
     end: f64,
-    rate: f64,
-    acceleration: f64,
-    /// The stretches of constant acceleration still to come: acceleration, seconds.
-    legs: [(f64, f64); 3],
+    stroke: Stroke,
 }
 
 impl Runner {
-    /// Plans the fastest way from here to rest at the end; the speed is never against it.
-    fn plan(&mut self, held: bool) {
-        let direction = if self.end < self.at { -1.0 } else { 1.0 };
-        let (way, speed) = ((self.end - self.at).abs(), self.speed.abs());
-        let hard = direction * self.acceleration;
-        if held {
-            self.legs = [(-hard, speed / self.acceleration), (0.0, 0.0), (0.0, 0.0)];
-            return;
-        }
-        let squared = speed * speed;
-        let peak = (squared / 2.0 + self.acceleration * way).max(0.0).sqrt().min(self.rate);
-        let over = if speed > peak { -1.0 } else { 1.0 };
-        let (change, stop) = ((peak * peak - squared).abs(), peak * peak);
-        let cruise = (way - (change + stop) / (2.0 * self.acceleration)).max(0.0);
-        let cruising = if cruise > 0.0 { cruise / peak } else { 0.0 };
-        self.legs = [
-            (over * hard, (peak - speed).abs() / self.acceleration),
-            (0.0, cruising),
-            (-hard, peak / self.acceleration),
-        ];
+    fn new(from: f64, end: f64, [rate, acceleration, jerk]: [f64; 3]) -> Runner {
+        Runner { from, end, stroke: Stroke::new((end - from).abs(), rate, acceleration, jerk) }
     }
 
-    fn seconds(&self) -> f64 {
-        self.legs.iter().map(|leg| leg.1).sum()
-    }
-
-    fn advance(&mut self, mut seconds: f64) {
-        for leg in &mut self.legs {
-            let spent = leg.1.min(seconds);
-            self.at += (self.speed + leg.0 * spent / 2.0) * spent;
-            self.speed += leg.0 * spent;
-            leg.1 -= spent;
-            seconds -= spent;
+    /// Where it is, and how fast.
+    fn here(&self) -> (f64, f64) {
+        if self.stroke.has_arrived() {
+            return (self.end, 0.0);
         }
+        let here = self.stroke.here();
+        let direction = if self.end < self.from { -1.0 } else { 1.0 };
+        (self.from + direction * here.s, direction * here.speed)
     }
 }
 
@@ -70,30 +43,25 @@ pub(crate) struct Positioning {
 }
 
 impl Positioning {
-    /// Every axis at its own rate and acceleration: mm/s, mm/s².
-    pub fn by_axes(from: &Point, to: &Point, limits: impl Fn(usize) -> (f64, f64), count: usize) -> Positioning {
-        let mut runners = [Runner::default(); AXES];
+    /// Every axis at its own rate, acceleration and jerk: mm/s, mm/s², mm/s³.
+    pub fn by_axes(from: &Point, to: &Point, limits: impl Fn(usize) -> [f64; 3], count: usize) -> Positioning {
+        let mut runners = [Runner::new(0.0, 0.0, [0.0; 3]); AXES];
         for (axis, runner) in runners.iter_mut().enumerate().take(count) {
-            let (rate, acceleration) = limits(axis);
-            *runner = Runner { at: from[axis], end: to[axis], rate, acceleration, ..Runner::default() };
-            runner.plan(false);
+            *runner = Runner::new(from[axis], to[axis], limits(axis));
         }
         Positioning { from: *from, to: *to, runners, straight: None, count, held: false }
     }
 
-    /// Along a straight line of this length, at this rate and acceleration along it.
-    pub fn straight(from: &Point, to: &Point, length: f64, rate: f64, acceleration: f64) -> Positioning {
-        let mut runners = [Runner::default(); AXES];
-        runners[0] = Runner { end: length, rate, acceleration, ..Runner::default() };
-        runners[0].plan(false);
+    /// Along a straight line of this length, at this rate, acceleration and jerk along it.
+    pub fn straight(from: &Point, to: &Point, length: f64, limits: [f64; 3]) -> Positioning {
+        let runners = [Runner::new(0.0, length, limits); AXES];
         Positioning { from: *from, to: *to, runners, straight: Some(length), count: 1, held: false }
     }
 
     /// Other rates from now on.
     pub fn set_rates(&mut self, rates: impl Fn(usize) -> f64) {
-        for index in 0..self.count {
-            self.runners[index].rate = rates(index);
-            self.runners[index].plan(self.held);
+        for (index, runner) in self.runners[..self.count].iter_mut().enumerate() {
+            runner.stroke.set_speed(rates(index));
         }
     }
 
@@ -101,27 +69,24 @@ impl Positioning {
     pub fn hold(&mut self, held: bool) {
         self.held = held;
         for runner in &mut self.runners[..self.count] {
-            runner.plan(held);
+            runner.stroke.hold(held);
         }
     }
 
     /// Drives for a time: what is left of it when the end is reached, and whether it is.
     pub fn drive_for(&mut self, seconds: f64) -> (f64, bool) {
-        let needed = self.runners[..self.count].iter().map(Runner::seconds).fold(0.0, f64::max);
-        let spent = needed.min(seconds);
+        let (mut left, mut arrived) = (seconds, true);
         for runner in &mut self.runners[..self.count] {
-            runner.advance(spent);
-            if !self.held && runner.seconds() <= 0.0 {
-                (runner.at, runner.speed) = (runner.end, 0.0);
-            }
+            left = left.min(runner.stroke.advance(seconds));
+            arrived &= runner.stroke.has_arrived();
         }
-        let ended = !self.held && needed <= seconds;
-        (if ended { seconds - spent } else { 0.0 }, ended)
+        let ended = !self.held && arrived;
+        (if ended { left } else { 0.0 }, ended)
     }
 
     /// True if nothing moves.
     pub fn is_standing(&self) -> bool {
-        self.runners[..self.count].iter().all(|runner| runner.legs.iter().all(|leg| leg.1 <= INSTANT_S))
+        self.runners[..self.count].iter().all(|runner| runner.stroke.leg().is_none())
     }
 
     /// Where the axes are, and how fast.
@@ -129,18 +94,18 @@ impl Positioning {
         let mut setpoint = Setpoint { position: self.from, velocity: [0.0; AXES] };
         let Some(length) = self.straight else {
             for (axis, runner) in self.runners[..self.count].iter().enumerate() {
-                (setpoint.position[axis], setpoint.velocity[axis]) = (runner.at, runner.speed);
+                (setpoint.position[axis], setpoint.velocity[axis]) = runner.here();
             }
             return setpoint;
         };
-        let runner = &self.runners[0];
-        if runner.at >= length {
+        let (s, speed) = self.runners[0].here();
+        if s >= length {
             return Setpoint { position: self.to, velocity: [0.0; AXES] };
         }
         for axis in 0..AXES {
             let share = (self.to[axis] - self.from[axis]) / length;
-            setpoint.position[axis] += share * runner.at;
-            setpoint.velocity[axis] = share * runner.speed;
+            setpoint.position[axis] += share * s;
+            setpoint.velocity[axis] = share * speed;
         }
         setpoint
     }
@@ -157,7 +122,12 @@ mod tests {
     }
 
     fn run() -> Positioning {
-        Positioning::by_axes(&point(0.0, 5.0), &point(100.0, -15.0), |axis| ([200.0, 100.0][axis], 500.0), 2)
+        Positioning::by_axes(
+            &point(0.0, 5.0),
+            &point(100.0, -15.0),
+            |axis| [[200.0, 100.0][axis], 500.0, f64::INFINITY],
+            2,
+        )
     }
 
     #[test]

@@ -6,11 +6,12 @@ use path::{Arc, Path, Shape, Shaped};
 
 use crate::engine::{Kept, Sample};
 use crate::horizon::{Move, Setpoint};
-use crate::limits::Limits;
+use crate::limits::{Limits, Model};
 use crate::overrides::Overrides;
 use crate::planner::{Ahead, Pace, Planner, Stretch};
 use crate::positioning::Positioning;
 use crate::profile::Trapezoid;
+use crate::scurve::SCurve;
 use crate::way::Way;
 
 /// A shape with its time.
@@ -222,9 +223,13 @@ impl Motion {
         self.positioning = Some(if limits.straight_rapid {
             let length = distance(from, to, limits.count);
             let (rate, acceleration) = along(limits, from, to, length, |axis| overrides.rapid(axis.rapid));
-            Positioning::straight(from, to, length, rate, acceleration)
+            let jerk = jerk_along(limits, from, to, length);
+            Positioning::straight(from, to, length, [rate, acceleration, jerk])
         } else {
-            let of = |axis: usize| (overrides.rapid(limits.axes[axis].rapid), limits.axes[axis].acceleration);
+            let of = |axis: usize| {
+                let own = &limits.axes[axis];
+                [overrides.rapid(own.rapid), own.acceleration, limits.jerk(axis)]
+            };
             Positioning::by_axes(from, to, of, limits.count)
         });
     }
@@ -338,15 +343,16 @@ impl Motion {
         let length = distance(from, to, self.limits.count);
         if self.limits.straight_rapid {
             let (speed, acceleration) = along(&self.limits, from, to, length, |axis| self.overrides.rapid(axis.rapid));
-            return (Trapezoid::new(length, speed, acceleration).seconds(), length, 0.0);
+            let jerk = jerk_along(&self.limits, from, to, length);
+            return (from_rest_to_rest(length, speed, acceleration, jerk), length, 0.0);
         }
         let mut longest = 0.0f64;
         for axis in 0..self.limits.count {
             let way = (to[axis] - from[axis]).abs();
             if way > 0.0 {
                 let limits = &self.limits.axes[axis];
-                longest =
-                    longest.max(Trapezoid::new(way, self.overrides.rapid(limits.rapid), limits.acceleration).seconds());
+                let (rate, jerk) = (self.overrides.rapid(limits.rapid), self.limits.jerk(axis));
+                longest = longest.max(from_rest_to_rest(way, rate, limits.acceleration, jerk));
             }
         }
         (longest, length, 0.0)
@@ -371,7 +377,8 @@ impl Motion {
             let share = if feed.way_mm > 0.0 { length / feed.way_mm } else { 1.0 };
             (self.overrides.commanded(feed), most.min(self.overrides.actual(feed) / 60.0 * share))
         };
-        (Trapezoid::new(length, speed, acceleration).seconds(), length, commanded)
+        let jerk = jerk_along(&self.limits, from, to, length);
+        (from_rest_to_rest(length, speed, acceleration, jerk), length, commanded)
     }
 
     /// An arc. Its own acceleration towards the centre and that along the path share what the plane's axes can give:
@@ -405,7 +412,8 @@ impl Motion {
                 acceleration = acceleration.min(self.limits.axes[axis].acceleration * plane_length / way);
             }
         }
-        let seconds = Trapezoid::new(plane_length, speed, acceleration).seconds();
+        let jerk = arc.axes.map(|axis| self.limits.jerk(usize::from(axis) % AXES));
+        let seconds = from_rest_to_rest(plane_length, speed, acceleration, jerk[0].min(jerk[1]));
         (seconds, length, commanded * steepness)
     }
 }
@@ -439,6 +447,24 @@ fn along(
     // Where nothing moves there is no bound.
     let along = |(limit, way): (f64, f64)| if limit.is_finite() { limit * length / way } else { limit };
     (along(speed), along(acceleration))
+}
+
+/// The highest jerk along a straight way; infinite under all models but one.
+fn jerk_along(limits: &Limits, from: &Point, to: &Point, length: f64) -> f64 {
+    if limits.model != Model::Jerk {
+        return f64::INFINITY;
+    }
+    let each = |axis: usize| limits.axes[axis].jerk * length / (to[axis] - from[axis]).abs();
+    (0..limits.count).filter(|&axis| to[axis] != from[axis]).map(each).fold(f64::INFINITY, f64::min)
+}
+
+/// How long a move takes that is not planned together with others, s.
+fn from_rest_to_rest(length: f64, speed: f64, acceleration: f64, jerk: f64) -> f64 {
+    if jerk < f64::INFINITY {
+        SCurve::new(length, speed, acceleration, jerk).seconds()
+    } else {
+        Trapezoid::new(length, speed, acceleration).seconds()
+    }
 }
 
 /// The smaller one of two limits, each divided by its axis' way.

@@ -27,7 +27,7 @@ const REVERSAL: f64 = -0.866;
 /// The part of an axis' jerk which a jump within one servo period may take and still counts as none.
 const UNNOTICED: f64 = 2e-4;
 /// The shortest line that is rounded and the shortest arm, mm; a corner without room for it is a stop.
-const SHORTEST: f64 = 1e-6;
+pub const SHORTEST: f64 = 1e-6;
 /// The part of the tolerance that is used: deviations of arms are looked at in samples.
 pub const USED: f64 = 0.95;
 /// By how much of arm times change of direction, and of the arm's square times change of bend, three cubics leave the way.
