@@ -16,7 +16,7 @@ const KEPT_OF_A_SPELL: u32 = 64;
 /// A planner of one of the models.
 #[derive(Clone, Debug)]
 pub(crate) enum Engine {
-    /// Model `trapezoid`.
+    /// Model `trapezoid`, and `jerk` where no axis' jerk is limited.
     Horizon(Box<Horizon>),
     /// Model `jerk`.
     Jerk(Box<JerkHorizon>),
@@ -46,8 +46,10 @@ impl Engine {
     pub fn new(limits: Limits) -> Engine {
         match limits.model {
             Model::Classic(classic) => Engine::Classic(Box::new(Interpolator::new(limits, classic))),
-            Model::Jerk => Engine::Jerk(Box::new(JerkHorizon::new(limits))),
-            Model::Trapezoid => Engine::Horizon(Box::new(Horizon::new(limits))),
+            Model::Jerk if limits.axes[..limits.count].iter().any(|axis| axis.jerk.is_finite()) => {
+                Engine::Jerk(Box::new(JerkHorizon::new(limits)))
+            }
+            Model::Trapezoid | Model::Jerk => Engine::Horizon(Box::new(Horizon::new(limits))),
         }
     }
 
@@ -149,11 +151,7 @@ impl Engine {
     pub fn stand_soon(&mut self, shown: usize) -> usize {
         match self {
             Engine::Horizon(horizon) => horizon.stand_soon(),
-            // They stand behind all that they have seen.
-            Engine::Jerk(horizon) => {
-                horizon.stop();
-                shown
-            }
+            Engine::Jerk(horizon) => horizon.stand_soon(),
             Engine::Classic(classic) => {
                 classic.stop();
                 shown
@@ -188,49 +186,39 @@ impl Engine {
     /// Drives the next move to its end: its time, s, and how it runs. What it asks for is `asked`, mm/s.
     pub fn drive(&mut self, asked: f64, kept: Option<&mut Kept>) -> (f64, Pace) {
         match self {
-            Engine::Horizon(horizon) => drive_on_the_way(horizon, kept),
-            Engine::Jerk(horizon) => drive_smoothly(horizon, asked, kept),
+            Engine::Horizon(horizon) => {
+                let asks = horizon.next_asks();
+                drive_on_the_way(asks, kept, |leg| horizon.drive_move(leg))
+            }
+            Engine::Jerk(horizon) => {
+                let asks = horizon.next_asks();
+                drive_on_the_way(asks, kept, |leg| horizon.drive_move(leg))
+            }
             Engine::Classic(classic) => drive_beside_it(classic, asked, kept),
         }
     }
 }
 
-fn drive_on_the_way(horizon: &mut Horizon, kept: Option<&mut Kept>) -> (f64, Pace) {
-    let asked = horizon.next_asks();
-    let mut notes = Notes { pace: None, asked, kept };
+fn drive_on_the_way(
+    asked: f64,
+    mut kept: Option<&mut Kept>,
+    drive_move: impl FnOnce(&mut dyn FnMut(&Way, f64, &Leg)) -> f64,
+) -> (f64, Pace) {
     let mut allowed = f32::INFINITY;
-    let seconds = horizon.drive_move(|way, axes_allow, leg| {
+    let mut pace: Option<Pace> = None;
+    let seconds = drive_move(&mut |way: &Way, axes_allow: f64, leg: &Leg| {
+        let (speed, end) = (leg.speed as f32, leg.at(leg.seconds).1 as f32);
+        let pace = pace.get_or_insert(Pace { asked, start: speed, ..Pace::default() });
+        pace.top = pace.top.max(speed).max(end);
+        pace.end = end;
         if !matches!(way, Way::Blend { .. }) {
             allowed = allowed.min(axes_allow.sqrt() as f32);
         }
-        notes.take(way, leg);
-    });
-    (seconds, Pace { allowed: allowed.min(asked as f32), ..notes.pace.unwrap_or_default() })
-}
-
-fn drive_smoothly(horizon: &mut JerkHorizon, asked: f64, kept: Option<&mut Kept>) -> (f64, Pace) {
-    let mut notes = Notes { pace: None, asked, kept };
-    let seconds = horizon.drive_move(|way, leg| notes.take(way, leg));
-    (seconds, Pace { allowed: asked as f32, ..notes.pace.unwrap_or_default() })
-}
-
-/// What is noted of a move's legs.
-struct Notes<'k> {
-    pace: Option<Pace>,
-    asked: f64,
-    kept: Option<&'k mut Kept>,
-}
-
-impl Notes<'_> {
-    fn take(&mut self, way: &Way, leg: &Leg) {
-        let (speed, end) = (leg.speed as f32, leg.at(leg.seconds).1 as f32);
-        let pace = self.pace.get_or_insert(Pace { asked: self.asked, start: speed, ..Pace::default() });
-        pace.top = pace.top.max(speed).max(end);
-        pace.end = end;
-        if let Some(kept) = &mut self.kept {
+        if let Some(kept) = &mut kept {
             kept.stretches.push(crate::Stretch { way: *way, leg: *leg });
         }
-    }
+    });
+    (seconds, Pace { allowed: allowed.min(asked as f32), ..pace.unwrap_or_default() })
 }
 
 fn drive_beside_it(classic: &mut Interpolator, asked: f64, mut kept: Option<&mut Kept>) -> (f64, Pace) {

@@ -1,6 +1,6 @@
 //! What the control sees of the path before it, under model `jerk`.
 //!
-//! A *run* is what lies between two stops. In it the path is rounded so that its bend is steady ([`stretch`], [`rounding`]) and
+//! A *run* is what lies between two stops. In it the path is rounded so that its bend is steady ([`polygon`], [`rounding`]) and
 //! planned as if speed could change at a constant acceleration at once; what is driven is the mean of that plan over
 //! the last `T` seconds: `s(t) = 1/T ∫ p(τ) dτ` from `t - T` to `t`. Its speed and acceleration are then means of the
 //! plan's, and the acceleration changes by at most `2 u / T` (Biagiotti and Melchiorri, *FIR filters for online
@@ -16,20 +16,21 @@
 
 mod bounds;
 mod drive;
+mod polygon;
 mod rounding;
 mod settle;
-mod stretch;
+mod stand;
 
 use std::collections::VecDeque;
 
-use base::AXES;
+use base::{AXES, Point};
 use meaning::Feed;
 
 use bounds::{Allowance, Bounds};
 use drive::Drive;
+use polygon::Polygon;
 use rounding::Joint;
 use settle::Zones;
-use stretch::Stretch;
 
 use crate::horizon::Move;
 use crate::limits::{AxisLimits, Limits};
@@ -48,6 +49,8 @@ const TOO_SHORT: f64 = 2.0;
 struct Asked {
     feed: Feed,
     share: f64,
+    /// Where it ends.
+    to: Point,
 }
 
 /// A move whose end is not known yet.
@@ -70,6 +73,8 @@ struct Piece {
     /// What the axes allow, all zones counted in: mm/s and mm/s².
     fastest: f64,
     push: f64,
+    /// What they allow on the piece itself, mm/s.
+    own: f64,
     /// What the commanded feed allows, overrides counted in, mm/s.
     feed: f64,
     /// The highest squared speed of the plan at its start from which all the rest can be kept to.
@@ -97,7 +102,7 @@ pub struct JerkHorizon {
     asked: VecDeque<Asked>,
     first_move: u64,
     /// The lines that have not been cut, and the last move.
-    stretch: Stretch,
+    polygon: Polygon,
     last: Option<Open>,
     /// The axes stand behind the last piece.
     closed: bool,
@@ -124,7 +129,7 @@ impl JerkHorizon {
             first_way: 0,
             asked: VecDeque::new(),
             first_move: 0,
-            stretch: Stretch::default(),
+            polygon: Polygon::default(),
             last: None,
             closed: false,
             zones: Zones::default(),
@@ -141,7 +146,7 @@ impl JerkHorizon {
         self.pieces.clear();
         self.ways.clear();
         self.asked.clear();
-        self.stretch.begin(0.0, 0, 0.0);
+        self.polygon.begin(0.0, 0, 0.0);
         self.last = None;
         self.closed = false;
         self.zones.clear();
@@ -163,7 +168,8 @@ impl JerkHorizon {
     pub fn add(&mut self, next: &Move) {
         debug_assert!(!self.closed && next.way.length() > 0.0, "nothing is seen behind a stop");
         let mover = self.first_move + self.asked.len() as u64;
-        self.asked.push_back(Asked { feed: next.feed, share: next.share });
+        let to = next.way.at(next.way.length());
+        self.asked.push_back(Asked { feed: next.feed, share: next.share, to });
         self.ready = false;
         let mut open = Open { way: next.way, mover, start: Joint::Rest };
         if let Some(last) = self.last.take() {
@@ -218,42 +224,42 @@ impl JerkHorizon {
         let (mut change, mut goes_on) = ([0.0; AXES], false);
         match open.start {
             Joint::Corner(by) => (change, goes_on) = (by, true),
-            Joint::Passed => goes_on = !self.stretch.is_cut(),
+            Joint::Passed => goes_on = !self.polygon.is_cut(),
             _ => {}
         }
         if !goes_on {
             let arm = if let Joint::Arms(arm) = open.start { arm } else { 0.0 };
-            self.stretch.begin(self.limits.corner_tolerance, self.limits.count, arm);
+            self.polygon.begin(self.limits.corner_tolerance, self.limits.count, arm);
         }
-        self.stretch.add(&open.way, open.mover, change);
+        self.polygon.add(&open.way, open.mover, change);
         self.cut_lines();
     }
 
     /// Cuts the lines of which enough is known.
     fn cut_lines(&mut self) {
-        let mut stretch = std::mem::take(&mut self.stretch);
-        while let Some(mover) = stretch.cut() {
-            for way in stretch.pieces() {
+        let mut polygon = std::mem::take(&mut self.polygon);
+        while let Some(mover) = polygon.cut() {
+            for way in polygon.pieces() {
                 self.push(way, 0.0, way.length(), [mover; 2]);
             }
             if let Some(piece) = self.pieces.back_mut() {
                 piece.ends = true;
             }
         }
-        self.stretch = stretch;
+        self.polygon = polygon;
     }
 
     fn end_way(&mut self, last: &Open, end: &Joint) {
         let arm = |joint: &Joint| if let Joint::Arms(arm) = joint { *arm } else { 0.0 };
         if last.way.is_straight() {
-            self.stretch.end(arm(end));
+            self.polygon.end(arm(end));
             self.cut_lines();
         } else {
             let from = arm(&last.start);
             self.push(&last.way, from, last.way.length() - arm(end) - from, [last.mover; 2]);
         }
         let stops = *end == Joint::Rest;
-        let stroke = stops && last.start == Joint::Rest && last.way.is_straight() && self.stretch.is_single();
+        let stroke = stops && last.start == Joint::Rest && last.way.is_straight() && self.polygon.is_single();
         if let Some(piece) = self.pieces.back_mut() {
             // Half of the arms belongs to the move.
             (piece.ends, piece.stops, piece.stroke) = (!matches!(end, Joint::Arms(_)), stops, stroke);
@@ -300,6 +306,7 @@ impl JerkHorizon {
             length,
             fastest,
             push,
+            own: fastest,
             feed: 0.0,
             most: 0.0,
             window: self.window,
@@ -333,6 +340,12 @@ impl JerkHorizon {
             let feed = asked.feed.mm_per_min * HIGHEST_OVERRIDE;
             feed.max(self.overrides.actual(&asked.feed)) / 60.0 * asked.share
         })
+    }
+
+    /// The speed that the next move to end asks for, mm/s along its way, overrides counted in.
+    pub fn next_asks(&self) -> f64 {
+        let next = self.pieces.iter().find(|piece| piece.ends);
+        next.map_or(0.0, |piece| self.feed_allows(&Piece { moves: [piece.moves[0]; 2], fastest: piece.own, ..*piece }))
     }
 
     /// The window that suits a move best: a ramp from rest to its speed is then shortest.

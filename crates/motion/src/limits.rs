@@ -60,9 +60,9 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The jerk that an axis is held to, mm/s³: none but under model `jerk`.
-    pub fn jerk_of(&self, axis: &AxisLimits) -> f64 {
-        if self.model == Model::Jerk { axis.jerk } else { f64::INFINITY }
+    /// The jerk of an axis as its model keeps to it, mm/s³.
+    pub fn jerk(&self, axis: usize) -> f64 {
+        if self.model == Model::Jerk { self.axes[axis].jerk } else { f64::INFINITY }
     }
 }
 

@@ -223,12 +223,12 @@ impl Motion {
         self.positioning = Some(if limits.straight_rapid {
             let length = distance(from, to, limits.count);
             let (rate, acceleration) = along(limits, from, to, length, |axis| overrides.rapid(axis.rapid));
-            let (jerk, _) = along(limits, from, to, length, |axis| limits.jerk_of(axis));
+            let jerk = jerk_along(limits, from, to, length);
             Positioning::straight(from, to, length, [rate, acceleration, jerk])
         } else {
             let of = |axis: usize| {
-                let limit = &limits.axes[axis];
-                [overrides.rapid(limit.rapid), limit.acceleration, limits.jerk_of(limit)]
+                let own = &limits.axes[axis];
+                [overrides.rapid(own.rapid), own.acceleration, limits.jerk(axis)]
             };
             Positioning::by_axes(from, to, of, limits.count)
         });
@@ -340,24 +340,19 @@ impl Motion {
     }
 
     fn rapid(&self, from: &Point, to: &Point) -> (f64, f64, f64) {
-        let limits = &self.limits;
-        let length = distance(from, to, limits.count);
-        let seconds = |way: f64, rate: f64, acceleration: f64, jerk: f64| match limits.model {
-            Model::Jerk => SCurve::new(way, rate, acceleration, jerk).seconds(),
-            _ => Trapezoid::new(way, rate, acceleration).seconds(),
-        };
-        if limits.straight_rapid {
-            let (rate, acceleration) = along(limits, from, to, length, |axis| self.overrides.rapid(axis.rapid));
-            let (jerk, _) = along(limits, from, to, length, |axis| limits.jerk_of(axis));
-            return (seconds(length, rate, acceleration, jerk), length, 0.0);
+        let length = distance(from, to, self.limits.count);
+        if self.limits.straight_rapid {
+            let (speed, acceleration) = along(&self.limits, from, to, length, |axis| self.overrides.rapid(axis.rapid));
+            let jerk = jerk_along(&self.limits, from, to, length);
+            return (from_rest_to_rest(length, speed, acceleration, jerk), length, 0.0);
         }
         let mut longest = 0.0f64;
-        for axis in 0..limits.count {
+        for axis in 0..self.limits.count {
             let way = (to[axis] - from[axis]).abs();
             if way > 0.0 {
-                let limit = &limits.axes[axis];
-                let rate = self.overrides.rapid(limit.rapid);
-                longest = longest.max(seconds(way, rate, limit.acceleration, limits.jerk_of(limit)));
+                let limits = &self.limits.axes[axis];
+                let (rate, jerk) = (self.overrides.rapid(limits.rapid), self.limits.jerk(axis));
+                longest = longest.max(from_rest_to_rest(way, rate, limits.acceleration, jerk));
             }
         }
         (longest, length, 0.0)
@@ -382,7 +377,8 @@ impl Motion {
             let share = if feed.way_mm > 0.0 { length / feed.way_mm } else { 1.0 };
             (self.overrides.commanded(feed), most.min(self.overrides.actual(feed) / 60.0 * share))
         };
-        (Trapezoid::new(length, speed, acceleration).seconds(), length, commanded)
+        let jerk = jerk_along(&self.limits, from, to, length);
+        (from_rest_to_rest(length, speed, acceleration, jerk), length, commanded)
     }
 
     /// An arc. Its own acceleration towards the centre and that along the path share what the plane's axes can give:
@@ -416,7 +412,8 @@ impl Motion {
                 acceleration = acceleration.min(self.limits.axes[axis].acceleration * plane_length / way);
             }
         }
-        let seconds = Trapezoid::new(plane_length, speed, acceleration).seconds();
+        let jerk = arc.axes.map(|axis| self.limits.jerk(usize::from(axis) % AXES));
+        let seconds = from_rest_to_rest(plane_length, speed, acceleration, jerk[0].min(jerk[1]));
         (seconds, length, commanded * steepness)
     }
 }
@@ -450,6 +447,24 @@ fn along(
     // Where nothing moves there is no bound.
     let along = |(limit, way): (f64, f64)| if limit.is_finite() { limit * length / way } else { limit };
     (along(speed), along(acceleration))
+}
+
+/// The highest jerk along a straight way; infinite under all models but one.
+fn jerk_along(limits: &Limits, from: &Point, to: &Point, length: f64) -> f64 {
+    if limits.model != Model::Jerk {
+        return f64::INFINITY;
+    }
+    let each = |axis: usize| limits.axes[axis].jerk * length / (to[axis] - from[axis]).abs();
+    (0..limits.count).filter(|&axis| to[axis] != from[axis]).map(each).fold(f64::INFINITY, f64::min)
+}
+
+/// How long a move takes that is not planned together with others, s.
+fn from_rest_to_rest(length: f64, speed: f64, acceleration: f64, jerk: f64) -> f64 {
+    if jerk < f64::INFINITY {
+        SCurve::new(length, speed, acceleration, jerk).seconds()
+    } else {
+        Trapezoid::new(length, speed, acceleration).seconds()
+    }
 }
 
 /// The smaller one of two limits, each divided by its axis' way.

@@ -26,7 +26,8 @@ impl Ramp {
         }
         let double = 2.0 * acceleration;
         if rate <= 0.0 {
-            let slowing = Leg { s, speed, acceleration: -acceleration, jerk: 0.0, seconds: speed / acceleration };
+            let slowing =
+                Leg { s, speed, acceleration: -acceleration, seconds: speed / acceleration, ..Leg::default() };
             let stands = s + speed * speed / double;
             self.legs = [slowing, Leg { s: stands, seconds: f64::INFINITY, ..Leg::default() }, Leg::default()];
             return;
@@ -40,11 +41,17 @@ impl Ramp {
                 s,
                 speed,
                 acceleration: acceleration.copysign(top - speed),
-                jerk: 0.0,
                 seconds: (top - speed).abs() / acceleration,
+                ..Leg::default()
             },
-            Leg { s: s + change, speed: top, acceleration: 0.0, jerk: 0.0, seconds: steady / top },
-            Leg { s: self.way - fall, speed: top, acceleration: -acceleration, jerk: 0.0, seconds: top / acceleration },
+            Leg { s: s + change, speed: top, acceleration: 0.0, seconds: steady / top, ..Leg::default() },
+            Leg {
+                s: self.way - fall,
+                speed: top,
+                acceleration: -acceleration,
+                seconds: top / acceleration,
+                ..Leg::default()
+            },
         ];
     }
 

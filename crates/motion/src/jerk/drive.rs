@@ -163,15 +163,16 @@ impl Drive {
 }
 
 impl JerkHorizon {
-    /// Drives to the end of the next move: how long that takes, s. `leg` is shown every leg on its way.
-    pub fn drive_move(&mut self, mut leg: impl FnMut(&Way, &Leg)) -> f64 {
+    /// Drives to the end of the next move: how long that takes, s. `leg` is shown every leg on its way, with the
+    /// squared speed that the axes allow there.
+    pub fn drive_move(&mut self, mut leg: impl FnMut(&Way, f64, &Leg)) -> f64 {
         let mut seconds = 0.0;
         while self.begin() {
             let rest = self.drive.now();
             if rest.seconds > 0.0
-                && let Some(way) = self.pieces.front().and_then(|piece| self.way(piece.way))
+                && let Some((piece, way)) = self.pieces.front().and_then(|piece| Some((piece, self.way(piece.way)?)))
             {
-                leg(way, &rest);
+                leg(way, piece.own * piece.own, &rest);
             }
             seconds += rest.seconds;
             if self.end_leg() {
@@ -374,7 +375,7 @@ impl JerkHorizon {
         self.ready = false;
         // A corner's feed is that of both moves: the first stays until its corner is driven.
         let last = self.last.as_ref().map_or(u64::MAX, |open| open.mover);
-        let open = self.stretch.first_mover().map_or(last, |first| first.min(last));
+        let open = self.polygon.first_mover().map_or(last, |first| first.min(last));
         let needed = self.pieces.front().map_or(open, |piece| piece.moves[0]);
         while self.first_move < needed && self.asked.pop_front().is_some() {
             self.first_move += 1;
@@ -394,6 +395,18 @@ impl JerkHorizon {
         let mut stroke = Stroke::new(piece.length, piece.fastest.min(piece.feed), acceleration, jerk);
         stroke.hold(self.drive.held);
         stroke
+    }
+}
+
+impl JerkHorizon {
+    /// The first piece that the plan has not left, where it is on it, and its squared speed.
+    pub(super) fn plan_is(&self) -> (usize, f64, f64) {
+        let plan = &self.drive.plan;
+        match self.pieces.front() {
+            // Nothing is planned yet, or a stroke that ends with its piece.
+            Some(first) if self.drive.past.is_empty() => (0, first.from, 0.0),
+            _ => (plan.index, plan.s, plan.speed * plan.speed),
+        }
     }
 }
 

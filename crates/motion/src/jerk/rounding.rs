@@ -1,6 +1,6 @@
 //! Corners and jumps of curvature under a limit of jerk: how they are rounded so that the bend of the way is steady.
 //!
-//! Lines are rounded together ([`stretch`](super::stretch)). Beside arcs three cubics of equal length, from an arm's length
+//! Lines are rounded together ([`polygon`](super::polygon)). Beside arcs three cubics of equal length, from an arm's length
 //! before the joint to the same length behind it, meet place, slope and bend of both ways. Where the direction does not
 //! jump, a jump `k` of the bend is left by only about `0.003 k arm²`.
 
@@ -27,7 +27,7 @@ const REVERSAL: f64 = -0.866;
 /// The part of an axis' jerk which a jump within one servo period may take and still counts as none.
 const UNNOTICED: f64 = 2e-4;
 /// The shortest line that is rounded and the shortest arm, mm; a corner without room for it is a stop.
-const SHORTEST: f64 = 1e-6;
+pub const SHORTEST: f64 = 1e-6;
 /// The part of the tolerance that is used: deviations of arms are looked at in samples.
 pub const USED: f64 = 0.95;
 /// By how much of arm times change of direction, and of the arm's square times change of bend, three cubics leave the way.

@@ -49,7 +49,7 @@ struct Line {
 
 /// Lines between two ends.
 #[derive(Clone, Debug, Default)]
-pub struct Stretch {
+pub struct Polygon {
     tolerance: f64,
     axes: usize,
     /// The corners, of which the first `before` belong to lines that have been cut; and the other lines.
@@ -71,7 +71,7 @@ pub struct Stretch {
     knots: Vec<f64>,
 }
 
-impl Stretch {
+impl Polygon {
     /// Begins anew, an arm's length behind the start of the first line.
     pub fn begin(&mut self, tolerance: f64, axes: usize, arm: f64) {
         self.corners.clear();
@@ -113,20 +113,21 @@ impl Stretch {
         self.lines.is_empty()
     }
 
-    /// Cuts the next line if all that it depends on is known: its move; [`Stretch::pieces`] gives its pieces.
+    /// Cuts the next line if all that it depends on is known: its move; [`Polygon::pieces`] gives its pieces.
     pub fn cut(&mut self) -> Option<u64> {
         self.measure();
         self.settle();
         let line = *self.lines.front()?;
         let next = self.before + 1;
         let reach = match self.corners.get(next) {
-            Some(corner) if next < self.settled => corner.at + corner.most,
+            Some(corner) if next < self.settled => corner.at + corner.most.min(WIDEST),
             None if self.ended => self.end,
             _ => return None,
         };
-        // Corners behind the end of the line reach into it only from within its `g`.
-        let waits = self.corners.iter().skip(self.settled).any(|corner| corner.at < reach);
-        if waits {
+        // Corners behind the end of the line reach into it only from within its `g`, and not over too many others.
+        let mut near = self.corners.iter().take(next + 1 + MOST_COVERED);
+        let unknown = !self.ended && self.end < reach && self.corners.len() <= next + MOST_COVERED;
+        if unknown || near.by_ref().skip(self.settled).any(|corner| corner.at < reach) {
             return None;
         }
         self.cut_line(&line.way);
@@ -150,12 +151,12 @@ impl Stretch {
     fn measure(&mut self) {
         while let Some(&corner) = self.corners.get(self.measured) {
             let index = self.measured;
-            // Where it does not turn it need not wait for what follows.
-            let mut most = if corner.turn > 0.0 {
-                (6.0 * self.tolerance / corner.turn).min(WIDEST)
-            } else {
-                WIDEST.min(self.end - corner.at)
-            };
+            if corner.turn == 0.0 {
+                self.corners[index].most = f64::INFINITY;
+                self.measured += 1;
+                continue;
+            }
+            let mut most = (6.0 * self.tolerance / corner.turn).min(WIDEST);
             if let Some(before) = index.checked_sub(MOST_COVERED) {
                 most = most.min(corner.at - self.corners[before].at);
             }
@@ -221,6 +222,10 @@ impl Stretch {
         while self.settled < self.measured {
             let index = self.settled;
             let corner = self.corners[index];
+            if corner.turn == 0.0 {
+                self.settled += 1;
+                continue;
+            }
             let mut width = corner.most.min(corner.at - self.begin);
             let narrow = |width: f64, other: &Corner| width.min(other.most.max((other.at - corner.at).abs()));
             for other in (0..index).rev() {
@@ -245,8 +250,7 @@ impl Stretch {
             if corner.at + width > self.free && !self.ended {
                 return;
             }
-            // An end of the stretch is no corner.
-            self.corners[index].width = if corner.turn > 0.0 { width.max(0.0) } else { 0.0 };
+            self.corners[index].width = width.max(0.0);
             self.settled += 1;
         }
     }
@@ -318,7 +322,7 @@ mod tests {
 
     /// All pieces of a polygon.
     fn rounded(tolerance: f64, places: &[Point]) -> Vec<Way> {
-        let (mut stretch, mut ways) = (Stretch::default(), Vec::new());
+        let (mut stretch, mut ways) = (Polygon::default(), Vec::new());
         stretch.begin(tolerance, 2, 0.0);
         let mut before = None;
         for (mover, pair) in places.windows(2).enumerate() {
