@@ -264,7 +264,7 @@ impl Cell {
     }
 
     /// The acceleration with which the axes come to stand in it from the squared speed `x` at its start, if they can.
-    pub fn to_stand(&self, x: f64) -> Option<f64> {
+    pub fn braking(&self, x: f64) -> Option<f64> {
         let mut hardest = self.straight.unwrap_or(f64::INFINITY);
         let double = 2.0 * self.length();
         for (index, strip) in self.strips[..self.count].iter().enumerate() {

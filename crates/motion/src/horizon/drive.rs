@@ -382,7 +382,7 @@ fn slow_down(cell: &Cell, x: f64) -> Legs {
     let (start, length) = (cell.part[0], cell.length());
     let mut legs = Legs::default();
     let speed = x.sqrt();
-    if let Some(u) = cell.to_stand(x) {
+    if let Some(u) = cell.braking(x) {
         legs.push(Leg {
             s: start,
             speed,
