@@ -184,7 +184,8 @@ impl Losses {
         let allowed = f64::from(pace.allowed).min(asked);
         let is_held = allowed > 0.0 && allowed < asked * (1.0 - ROUNDING);
         let by_limits = if is_held { (length / allowed - length / asked).min(all) } else { 0.0 };
-        let missing = [pace.start, pace.end].map(|speed| (allowed - f64::from(speed)).max(0.0).powi(2));
+        let missing = [pace.start, pace.end].map(|speed| (allowed - f64::from(speed)).max(0.0));
+        let missing = missing.map(|speed| speed * speed);
         let sum = missing[0] + missing[1];
         let rest = (all - by_limits).max(0.0);
         let from_rest = pace.start <= 0.0;

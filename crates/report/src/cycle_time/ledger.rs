@@ -14,11 +14,11 @@ const MOST_OPERATIONS: usize = 500;
 enum Named {
     /// The canned cycle, or that there is none.
     #[default]
-    ByCycle,
+    Cycle,
     /// The subprogram that it is.
-    ByProgram,
+    Program,
     /// A remark.
-    ByRemark,
+    Remark,
 }
 
 /// A block, as far as it may begin an operation.
@@ -91,7 +91,7 @@ impl Ledger {
 
     /// Ends the present operation and begins one like `next`; one that is nothing yet becomes it.
     fn begin(&mut self, next: Operation) {
-        let is_nothing = self.now.named == Named::ByCycle && !self.now.cuts && self.now.tool == next.tool;
+        let is_nothing = self.now.named == Named::Cycle && !self.now.cuts && self.now.tool == next.tool;
         if is_nothing {
             let split = self.now.split;
             self.now = Operation { split, ..next };
@@ -118,18 +118,18 @@ impl Ledger {
             caller: if now.own == seen.program { now.caller } else { Some(now.own) },
             ..Operation::default()
         };
-        let unnamed = now.named == Named::ByCycle;
+        let unnamed = now.named == Named::Cycle;
         let next = match &seen.remark {
-            Some(remark) if now.named < Named::ByRemark || now.own == seen.program => {
-                begun(remark.clone(), Named::ByRemark)
+            Some(remark) if now.named < Named::Remark || now.own == seen.program => {
+                begun(remark.clone(), Named::Remark)
             }
             _ if now.caller == Some(seen.program) => {
-                let operation = begun(work(seen.cycle, control), Named::ByCycle);
+                let operation = begun(work(seen.cycle, control), Named::Cycle);
                 Operation { cycle: seen.cycle, caller: None, ..operation }
             }
-            _ if unnamed && now.own != seen.program => begun(seen.program_name.to_owned(), Named::ByProgram),
+            _ if unnamed && now.own != seen.program => begun(seen.program_name.to_owned(), Named::Program),
             _ if unnamed && (now.cycle != seen.cycle || now.name.is_empty()) => {
-                Operation { cycle: seen.cycle, ..begun(work(seen.cycle, control), Named::ByCycle) }
+                Operation { cycle: seen.cycle, ..begun(work(seen.cycle, control), Named::Cycle) }
             }
             _ => return,
         };
@@ -142,7 +142,7 @@ impl Ledger {
         if now.tool == tool {
             return;
         }
-        if now.named == Named::ByRemark && !now.cuts {
+        if now.named == Named::Remark && !now.cuts {
             // The remark above the tool change names what follows it; what came before is the old tool's.
             let before = Operation { name: String::new(), split: std::mem::take(&mut now.split), ..now.clone() };
             now.tool = tool;
@@ -152,7 +152,7 @@ impl Ledger {
             }
             return;
         }
-        let named = if here.remark.is_some() { Named::ByRemark } else { Named::ByCycle };
+        let named = if here.remark.is_some() { Named::Remark } else { Named::Cycle };
         let name = here.remark.clone().unwrap_or_default();
         let next = Operation { tool, name, named, program: here.program.clone(), ..Operation::default() };
         let next = Operation { line: here.line, own: here.own, caller: now.caller, ..next };
@@ -173,7 +173,7 @@ fn file(list: &mut Vec<Operation>, one: Operation) {
         return;
     }
     // The end of the program behind the last piece of work belongs to that.
-    let is_idle = one.named == Named::ByCycle && one.split.cutting + one.split.rapid + one.split.dwell <= 0.0;
+    let is_idle = one.named == Named::Cycle && one.split.cutting + one.split.rapid + one.split.dwell <= 0.0;
     if let (true, Some(last)) = (is_idle, list.last_mut().filter(|last| last.tool == one.tool)) {
         return last.split += one.split;
     }
