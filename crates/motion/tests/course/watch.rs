@@ -42,8 +42,9 @@ struct Watch<'p> {
     index: usize,
     last_index: usize,
     last: Setpoint,
-    /// The speed above what is allowed now, since an override fell.
+    /// The last speed, since an override may have taken back the feed; and until where that lasts.
     falling: Option<f64>,
+    falling_until: usize,
     run: Run,
     dt: f64,
     period: usize,
@@ -65,6 +66,7 @@ pub fn watch(program: &Program, acts: &[(usize, Act)]) -> Result<Run, String> {
         last_index: 0,
         last: start,
         falling: None,
+        falling_until: 0,
         run: Run::default(),
         dt,
         period: 0,
@@ -140,7 +142,8 @@ impl Watch<'_> {
             Act::Override(overrides) => {
                 self.overrides = *overrides;
                 self.horizon.set_overrides(*overrides);
-                self.falling = Some(f64::INFINITY);
+                // It may not have come down before a move of a lower feed begins.
+                (self.falling, self.falling_until) = (Some(f64::INFINITY), self.index + 3);
             }
             Act::Hold(held) => self.horizon.hold(*held),
         }
@@ -209,19 +212,24 @@ impl Watch<'_> {
         }
         let speed = norm(&now.velocity);
         if let Some(was) = self.falling {
-            if speed <= self.feed(self.index.min(last_move)) * SLACK + 1e-9 {
-                self.falling = None;
-            } else if speed > was * ROUND_A_CORNER {
+            let is_over = speed > self.feed(self.index.min(last_move)) * SLACK + 1e-9;
+            // Where an axis gives all it can already, the others may gain.
+            let hardest = (0..limits.count).map(|axis| acceleration[axis].abs() / limits.axes[axis].acceleration);
+            if is_over && speed > was * ROUND_A_CORNER && hardest.fold(0.0, f64::max) < 0.98 {
                 return self.wrong(format!("{speed} mm/s, {was} before, and the feed has been taken back"));
-            } else {
-                self.falling = Some(speed);
+            }
+            self.falling = Some(if is_over { speed } else { speed.max(was.min(f64::MAX)) });
+            if !is_over && (self.index >= self.falling_until || speed == 0.0) {
+                self.falling = None;
             }
         } else if speed > self.feed(self.index.min(last_move)) * SLACK + 1e-9 {
             return self.wrong(format!("{speed} mm/s, the feed is {}", self.feed(self.index.min(last_move))));
         }
         self.look_at_path(&now, around.clone())?;
         let gone: f64 = (0..AXES)
-            .map(|axis| (now.position[axis] - self.last.position[axis]) * (now.velocity[axis] + self.last.velocity[axis]))
+            .map(|axis| {
+                (now.position[axis] - self.last.position[axis]) * (now.velocity[axis] + self.last.velocity[axis])
+            })
             .sum();
         // Not where it may have turned round within the period.
         let turns = around.clone().any(|index| match &self.program.moves[index].way {
@@ -283,8 +291,10 @@ fn distance(way: &Way, point: &Point, enough: f64) -> f64 {
     const STEPS: usize = 400;
     let nearest = (0..=STEPS).map(|step| at(length * step as f64 / STEPS as f64)).enumerate();
     let (step, _) = nearest.min_by(|one, other| one.1.total_cmp(&other.1)).expect("many");
-    let (mut low, mut high) =
-        ((step as f64 - 1.0).max(0.0) / STEPS as f64 * length, (step as f64 + 1.0).min(STEPS as f64) / STEPS as f64 * length);
+    let (mut low, mut high) = (
+        (step as f64 - 1.0).max(0.0) / STEPS as f64 * length,
+        (step as f64 + 1.0).min(STEPS as f64) / STEPS as f64 * length,
+    );
     for _ in 0..80 {
         let (one, other) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
         if at(one) < at(other) { high = other } else { low = one }
