@@ -47,7 +47,8 @@ pub struct Cell {
     pub gain: f64,
     /// The highest squared speed at its start from which everything behind it can be kept to.
     pub most: f64,
-    /// The squared speed at its end that comes of that.
+    /// The same if any speed were allowed at its very start, and the squared speed at its end that it leads to.
+    pub peak: f64,
     pub leads_to: f64,
     /// The axes stand at its end.
     pub stops: bool,
@@ -102,6 +103,7 @@ impl Cell {
             pace: 1.0,
             gain: 1.0,
             most: 0.0,
+            peak: 0.0,
             leads_to: 0.0,
             stops: false,
             ends: Ends::Not,
@@ -134,7 +136,6 @@ impl Cell {
     pub fn bent(limits: &Limits, way: u64, part: [f64; 2], edges: [&Edge; 2], rate: Rate, share: f64) -> Cell {
         let mut cell = Cell::new(way, part);
         let per_u = 0.5 / cell.length();
-        let (mut rates_allow, mut bends_allow) = (f64::INFINITY, f64::INFINITY);
         for axis in 0..limits.count {
             if edges.iter().all(|edge| edge.slope[axis] == 0.0 && edge.bend[axis] == 0.0) {
                 continue;
@@ -144,8 +145,8 @@ impl Cell {
             for (at_end, edge) in edges.into_iter().enumerate() {
                 let (slope, bend) = (edge.slope[axis], edge.bend[axis]);
                 let fastest = fastest / slope;
-                rates_allow = rates_allow.min(fastest * fastest);
-                bends_allow = bends_allow.min(given / bend.abs());
+                cell.rates_allow = cell.rates_allow.min(fastest * fastest);
+                cell.axes_allow = cell.axes_allow.min(given / bend.abs());
                 let across = slope * per_u;
                 cell.strips[cell.count] = if at_end == 0 {
                     Strip::new(bend - across, across, given)
@@ -155,8 +156,8 @@ impl Cell {
                 cell.count += 1;
             }
         }
-        (cell.rates_allow, cell.share) = (rates_allow, share);
-        cell.axes_allow = rates_allow.min(bends_allow);
+        cell.share = share;
+        cell.axes_allow = cell.axes_allow.min(cell.rates_allow);
         let [start, end] = edges.map(|edge| dot(&edge.slope, &edge.slope, limits.count));
         cell.pace = start.max(end);
         cell
@@ -182,23 +183,35 @@ impl Cell {
         self.straight
     }
 
-    /// The highest squared speed at its start from which its end is reached with at most `end`, and that at its end.
-    pub fn most_before(&self, end: f64) -> (f64, f64) {
+    /// Finds the highest speeds from which its end is reached with at most `end`.
+    pub fn settle(&mut self, end: f64) {
+        (self.peak, self.leads_to) = self.peak_before(end);
+        self.most = self.peak.min(self.allowed());
+    }
+
+    /// The highest squared speed at its start from which its end is reached with at most `end`.
+    pub fn most_before(&self, end: f64) -> f64 {
+        self.peak_before(end).0.min(self.allowed())
+    }
+
+    fn peak_before(&self, end: f64) -> (f64, f64) {
         let allowed = self.allowed();
         let end = end.min(allowed);
         if let Some(acceleration) = self.straight {
-            return (allowed.min(end + 2.0 * acceleration * self.length()), end);
+            return (end + 2.0 * acceleration * self.length(), end);
         }
+        // What is allowed can be driven all along the cell, so it does not bound its very start; or it cannot.
+        let most = if allowed <= self.axes_allow { f64::MAX } else { allowed };
         let mut y = end;
         // Where no speed at the start leads to such an end it is lowered to one that can be reached.
-        let mut above = Strip { half: allowed, lean: 0.0 };
+        let mut above = Strip::default();
         for _ in 0..SEARCH_STEPS {
-            let (least, most) = self.bounds(y, allowed);
-            above = most;
-            if most.at(y) >= least.at(y) {
+            let (below, highest) = self.bounds(y, most);
+            above = highest;
+            if above.at(y) >= below.at(y) {
                 break;
             }
-            let met = (most.half - least.half) / (most.lean - least.lean);
+            let met = (above.half - below.half) / (above.lean - below.lean);
             if met >= y {
                 break;
             }
@@ -208,13 +221,13 @@ impl Cell {
         if above.lean <= 0.0 || y <= 0.0 {
             return (above.at(y).max(0.0), y);
         }
-        let mut rising = self.bounds(0.0, allowed).1;
+        let mut rising = self.bounds(0.0, most).1;
         if rising.lean >= 0.0 {
             return (rising.at(0.0), 0.0);
         }
         for _ in 0..SEARCH_STEPS {
             let met = (above.half - rising.half) / (above.lean - rising.lean);
-            let lowest = self.bounds(met, allowed).1;
+            let lowest = self.bounds(met, most).1;
             if lowest == above || lowest == rising {
                 break;
             }
@@ -225,13 +238,13 @@ impl Cell {
             }
         }
         let met = (above.half - rising.half) / (above.lean - rising.lean);
-        (above.at(met).clamp(0.0, allowed), met)
+        (above.at(met).max(0.0), met)
     }
 
-    /// The lines that bound `x` from below and above at `y`.
-    fn bounds(&self, y: f64, allowed: f64) -> (Strip, Strip) {
-        let (mut below, mut above) = (Strip::default(), Strip { half: allowed, lean: 0.0 });
-        let (mut least, mut most) = (0.0, allowed);
+    /// The lines that bound `x` from below and above at `y`, above at `most`.
+    fn bounds(&self, y: f64, mut most: f64) -> (Strip, Strip) {
+        let (mut below, mut above) = (Strip::default(), Strip { half: most, lean: 0.0 });
+        let mut least = 0.0;
         for strip in &self.strips[..self.count] {
             let leaning = strip.lean * y;
             if strip.half - leaning < most {

@@ -94,9 +94,11 @@ fn deviation(before: &Way, after: &Way, arm: f64, count: usize) -> f64 {
         let apart: Point = std::array::from_fn(|axis| at[axis] - place[axis]);
         norm(&apart, count)
     };
-    let corner = off(arm, after.at(0.0));
-    let sides = off(arm / 2.0, before.at(before.length() - arm / 2.0)).max(off(1.5 * arm, after.at(arm / 2.0)));
-    corner.max(sides)
+    let sides = [0.35, 0.7].map(|part| {
+        let before = off(part * arm, before.at(before.length() - (1.0 - part) * arm));
+        before.max(off((2.0 - part) * arm, after.at((1.0 - part) * arm)))
+    });
+    off(arm, after.at(0.0)).max(sides[0]).max(sides[1])
 }
 
 /// The direction of a way, one mm long.

@@ -31,10 +31,12 @@ pub const MOST_CELLS: usize = 16_384;
 const UNEVEN: f64 = 0.00225;
 /// So much of it is let pass; by the rest less is used of what the axes can give.
 const LET_PASS: f64 = 0.0008;
-/// Cells of a bent way that begins or ends with a stop: speed rises and falls in steps of cells.
-const FINEST: usize = 16;
+/// Radians that a cell of an arc turns at most; and where it is driven from rest to rest at changing speeds, which are
+/// lost on by 0.15 of that.
+const WIDEST: f64 = 0.06;
+const FINEST: f64 = 0.004;
 /// Most cells of a single way.
-const MOST_OF_A_WAY: usize = 512;
+const MOST_OF_A_WAY: usize = 1600;
 
 /// A cutting move.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -202,12 +204,28 @@ impl Horizon {
             // On a spiral the direction turns up to twice as fast as the spoke.
             let part = if arc.radius[0] == arc.radius[1] { length / whole } else { 2.0 * length / whole };
             let turned = arc.sweep.abs() * part;
-            let least = if to_rest || open.from_rest { FINEST } else { 1 };
-            pieces = ((turned * (0.625 / UNEVEN).sqrt()).ceil() as usize).clamp(least, MOST_OF_A_WAY);
+            let mut widest = WIDEST;
+            if to_rest && open.from_rest {
+                widest = FINEST.max(widest.min(FINEST / self.share_changing(open, length)));
+            }
+            pieces = ((turned / widest).ceil() as usize).clamp(1, MOST_OF_A_WAY);
             let each = turned / pieces as f64;
             share = share_of(0.625 * each * each);
         }
         self.push((open.number, &open.way), [open.from, end], (pieces, share), [open.mover; 2]);
+    }
+
+    /// The part of its time for which the speed of an arc changes that is driven from rest to rest, roughly.
+    fn share_changing(&self, open: &Open, length: f64) -> f64 {
+        let speed = self.wanted(open.mover);
+        let (at, square) = (length / 2.0, speed * speed);
+        let acceleration = self.hardest_along(&[1.0; AXES]);
+        let bend = open.way.bend(at);
+        if 2.0 * square * norm(&bend, AXES) > acceleration || square > acceleration * length {
+            return 1.0;
+        }
+        let changing = 2.0 * speed / acceleration;
+        changing / (changing / 2.0 + length / speed)
     }
 
     fn cut_blend(&mut self, blend: &Way, movers: [u64; 2]) {

@@ -1,6 +1,5 @@
 //! Model `classic` against what can be worked out by hand, and its laws on random paths.
 
-#[allow(dead_code, reason = "other tests use the rest of it")]
 mod course;
 mod old_control;
 

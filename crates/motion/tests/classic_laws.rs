@@ -1,8 +1,6 @@
 //! Model `classic`: what holds on every path, whatever the operator does.
 
-#[allow(dead_code, reason = "other tests use the rest of it")]
 mod course;
-#[allow(dead_code, reason = "other tests use the rest of it")]
 mod old_control;
 
 use base::AXES;

@@ -1,6 +1,5 @@
 //! Model `jerk`: velocity, acceleration and jerk of every axis stay within their limits, the path within the tolerance.
 
-#[expect(dead_code, reason = "what the other tests use")]
 mod course;
 use base::{AXES, Point};
 use course::{arc, line};

@@ -192,7 +192,7 @@ impl Losses {
         let part = |own: f64| if sum > 0.0 { rest * own / sum } else { rest / 2.0 };
         let reaches = f64::from(pace.top) >= allowed * (1.0 - SAME);
         let classic = matches!(self.limits.model, Model::Classic(_));
-        let [lost_at_start, lost_at_end] = match self.from_rest(way, allowed) {
+        let [lost_at_start, lost_at_end] = match self.rest_to_speed(way, allowed) {
             _ if classic => [rest, 0.0],
             // What a start or a stop costs is known; a corner at the other end also has its own short way round.
             Some(own) if reaches && from_rest => [own.min(rest), (rest - own).max(0.0)],
@@ -290,7 +290,7 @@ impl Losses {
     }
 
     /// What a straight way loses from rest to a speed, s.
-    fn from_rest(&self, way: &Way, speed: f64) -> Option<f64> {
+    fn rest_to_speed(&self, way: &Way, speed: f64) -> Option<f64> {
         let Way::Line { along, .. } = way else { return None };
         let axes = self.limits.axes.iter().zip(along).take(self.limits.count).filter(|(_, along)| **along != 0.0);
         let acceleration = axes.map(|(axis, along)| axis.acceleration / along.abs()).fold(f64::INFINITY, f64::min);

@@ -245,7 +245,7 @@ impl Horizon {
             None => {
                 let edges = [start, cell.part[1]].map(|s| Edge::new(way, s));
                 let rate = self.rate(cell.moves);
-                Cell::bent(&self.limits, cell.way, [start, cell.part[1]], [&edges[0], &edges[1]], rate, cell.share)
+                Cell::bent(&self.limits, cell.way, [start, cell.part[1]], [&edges[0], &edges[1]], rate, 1.0)
             }
         };
         new.ends = match cell.ends {
@@ -314,34 +314,72 @@ impl Horizon {
     }
 }
 
-/// The legs of a bent cell: as hard as the axes can towards the line of the highest speeds from which the rest can be
-/// kept to, and along that.
+/// The legs of a bent cell: as hard as the axes can towards what is allowed in it, or towards the line of speeds that
+/// falls to what may be driven at its end; along that to there.
 fn speed_up_bent(cell: &Cell, x: f64, end: f64) -> Legs {
     let (start, length) = (cell.part[0], cell.length());
-    let (most, leads_to) = (cell.most, cell.leads_to);
-    let end = end.min(cell.allowed());
+    let (allowed, peak, leads_to) = (cell.allowed(), cell.peak, cell.leads_to);
+    let end = end.min(allowed);
     let [low, high] = cell.reach(x);
     let mut legs = Legs::default();
-    let mut leg = |s: f64, [x, y]: [f64; 2], u: f64, length: f64| {
-        let [first, last] = [x, y].map(f64::sqrt);
-        legs.push(Leg { s, speed: first, acceleration: u, seconds: 2.0 * length / (first + last), ..Leg::default() });
+    // From a fraction of the cell to another one, at these squared speeds.
+    let mut leg = |[from, to]: [f64; 2], [x, y]: [f64; 2], change: f64| {
+        let way = (to - from) * length;
+        let [first, last] = [x, y].map(|x| x.max(0.0).sqrt());
+        let acceleration = change / (2.0 * length);
+        legs.push(Leg {
+            s: start + from * length,
+            speed: first,
+            acceleration,
+            seconds: 2.0 * way / (first + last),
+            ..Leg::default()
+        });
     };
-    let is_over = x > most;
-    let hardest = if is_over { low } else { high };
-    let meets = if is_over { low < leads_to } else { high > end && leads_to >= end };
-    if !meets {
-        let reached = if is_over { low } else { high.min(end) }.max(0.0);
-        leg(start, [x, reached], (reached - x) / (2.0 * length), length);
+    let met = if x > cell.most { meets_falling(cell, x, low) } else { meets_rising(cell, x, high, end) };
+    let Some((met, hard)) = met else {
+        // Where the axes are to stand they do, be it that a rounding has made them a little too fast for it.
+        let reached = if cell.stops {
+            0.0
+        } else if x > cell.most {
+            low.max(0.0)
+        } else {
+            high.min(end).max(0.0)
+        };
+        leg([0.0, 1.0], [x, reached], reached - x);
         legs.end = Some(reached);
         return legs;
-    }
-    // Two lines of x over the way: where they meet.
-    let way = ((most - x) * length / ((hardest - x) - (leads_to - most))).clamp(0.0, length);
-    let met = (most + (leads_to - most) * (way / length)).max(0.0);
-    leg(start, [x, met], (hardest - x) / (2.0 * length), way);
-    leg(start + way, [met, leads_to], (leads_to - most) / (2.0 * length), length - way);
+    };
+    let falls = |at: f64| peak + (leads_to - peak) * at;
+    // So far what is allowed is lower than the falling line.
+    let level = if peak > allowed { (peak - allowed) / (peak - leads_to) } else { 0.0 }.clamp(met, 1.0);
+    let top = if level > met { allowed } else { falls(met) };
+    leg([0.0, met], [x, top], hard - x);
+    leg([met, level], [top, top], 0.0);
+    leg([level, 1.0], [top, leads_to], leads_to - peak);
     legs.end = Some(leads_to);
     legs
+}
+
+/// Where in a cell, as a fraction of it, speed has risen to what may be driven, and the line along which it rises.
+fn meets_rising(cell: &Cell, x: f64, high: f64, end: f64) -> Option<(f64, f64)> {
+    if high <= end || cell.leads_to < end {
+        return None;
+    }
+    let [to_peak, above] = [cell.peak - x, high - cell.leads_to];
+    let falling = to_peak / (to_peak + above);
+    let level = if high > cell.allowed() { (cell.allowed() - x) / (high - x) } else { 1.0 };
+    Some((falling.min(level).clamp(0.0, 1.0), high))
+}
+
+/// The same where speed is to fall.
+fn meets_falling(cell: &Cell, x: f64, low: f64) -> Option<(f64, f64)> {
+    let (over, above) = (x - cell.allowed(), x - cell.peak);
+    if low >= cell.leads_to || low >= cell.allowed() {
+        return None;
+    }
+    let level = if over > 0.0 { over / (x - low) } else { 0.0 };
+    let falling = if above > 0.0 { above / (above + cell.leads_to - low) } else { 0.0 };
+    Some((level.max(falling).clamp(0.0, 1.0), low))
 }
 
 /// The legs of a straight cell from one squared speed to at most another.

@@ -62,11 +62,10 @@ impl Horizon {
         for index in (self.settled.saturating_sub(1)..seen).rev() {
             let end = self.end_of(index);
             let cell = &mut self.cells[index];
-            (cell.most, cell.leads_to) = cell.most_before(end);
+            cell.settle(end);
             if final_from <= index {
                 // Its own limits hold it, or a stop: not where the look-ahead ends.
-                let is_held =
-                    cell.stops || cell.most >= cell.allowed() || cell.most >= cell.most_before(f64::INFINITY).0;
+                let is_held = cell.stops || cell.most >= cell.allowed() || cell.most >= cell.most_before(f64::INFINITY);
                 if is_held {
                     final_from = index + 1;
                 }

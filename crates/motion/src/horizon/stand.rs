@@ -30,10 +30,10 @@ impl Horizon {
 
     /// True if the axes can stand where the move ends that ends in this cell.
     fn can_stand(&self, last: usize) -> bool {
-        let (mut most, _) = self.up_to_border(last).most_before(0.0);
+        let mut most = self.up_to_border(last).most_before(0.0);
         for cell in self.cells.range(..last).rev() {
             let end = if cell.stops { 0.0 } else { most * cell.gain };
-            most = cell.most_before(end).0;
+            most = cell.most_before(end);
         }
         self.speed_squared() <= most * ROUNDING
     }

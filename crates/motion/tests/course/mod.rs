@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // every test takes what it needs
 
+pub mod oracle;
 pub mod program;
 pub mod random;
 pub mod watch;

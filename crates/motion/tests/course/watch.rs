@@ -42,8 +42,9 @@ struct Watch<'p> {
     index: usize,
     last_index: usize,
     last: Setpoint,
-    /// The speed above what is allowed now, since an override fell.
+    /// The last speed, since an override may have taken back the feed; and until where that lasts.
     falling: Option<f64>,
+    falling_until: usize,
     run: Run,
     dt: f64,
     period: usize,
@@ -65,6 +66,7 @@ pub fn watch(program: &Program, acts: &[(usize, Act)]) -> Result<Run, String> {
         last_index: 0,
         last: start,
         falling: None,
+        falling_until: 0,
         run: Run::default(),
         dt,
         period: 0,
@@ -140,7 +142,8 @@ impl Watch<'_> {
             Act::Override(overrides) => {
                 self.overrides = *overrides;
                 self.horizon.set_overrides(*overrides);
-                self.falling = Some(f64::INFINITY);
+                // It may not have come down before a move of a lower feed begins.
+                (self.falling, self.falling_until) = (Some(f64::INFINITY), self.index + 3);
             }
             Act::Hold(held) => self.horizon.hold(*held),
         }
@@ -192,10 +195,10 @@ impl Watch<'_> {
             let quotient = change / limit.acceleration;
             let mean = (now.position[axis] - self.last.position[axis]) / dt;
             let late = (mean - (now.velocity[axis] + self.last.velocity[axis]) / 2.0).abs() - 1e-12 / dt - noise;
-            if !now.position[axis].is_finite() || !(velocity <= SLACK) {
+            if !now.position[axis].is_finite() || velocity.is_nan() || velocity > SLACK {
                 return self.wrong(format!("axis {axis}: velocity {velocity} of its limit"));
             }
-            if !(analytic <= SLACK) || !(quotient <= SLACK) {
+            if analytic.is_nan() || quotient.is_nan() || analytic.max(quotient) > SLACK {
                 return self.wrong(format!("axis {axis}: acceleration {analytic}, quotient {quotient} of its limit"));
             }
             // What is gone is what the velocity says.
@@ -209,12 +212,15 @@ impl Watch<'_> {
         }
         let speed = norm(&now.velocity);
         if let Some(was) = self.falling {
-            if speed <= self.feed(self.index.min(last_move)) * SLACK + 1e-9 {
-                self.falling = None;
-            } else if speed > was * ROUND_A_CORNER {
+            let is_over = speed > self.feed(self.index.min(last_move)) * SLACK + 1e-9;
+            // Where an axis gives all it can already, the others may gain.
+            let hardest = (0..limits.count).map(|axis| acceleration[axis].abs() / limits.axes[axis].acceleration);
+            if is_over && speed > was * ROUND_A_CORNER && hardest.fold(0.0, f64::max) < 0.98 {
                 return self.wrong(format!("{speed} mm/s, {was} before, and the feed has been taken back"));
-            } else {
-                self.falling = Some(speed);
+            }
+            self.falling = Some(if is_over { speed } else { speed.max(was.min(f64::MAX)) });
+            if !is_over && (self.index >= self.falling_until || speed == 0.0) {
+                self.falling = None;
             }
         } else if speed > self.feed(self.index.min(last_move)) * SLACK + 1e-9 {
             return self.wrong(format!("{speed} mm/s, the feed is {}", self.feed(self.index.min(last_move))));

@@ -1,5 +1,7 @@
 //! Programs for the interpolator of the old controls, carried out as the stage does.
 
+#![allow(dead_code)] // every test takes what it needs
+
 use motion::{Interpolator, Move, Spent};
 
 use crate::course::point;
