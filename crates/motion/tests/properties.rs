@@ -35,7 +35,8 @@ fn agree(one: &[f64], other: &[f64], what: &str) -> Result<(), String> {
         return Err(format!("{what}: {} and {} moves", one.len(), other.len()));
     }
     for (index, (one, other)) in one.iter().zip(other).enumerate() {
-        if !((one - other).abs() <= ROUNDING * whole) {
+        let apart = (one - other).abs();
+        if apart.is_nan() || apart > ROUNDING * whole {
             return Err(format!("{what}: move {index} takes {one} s and {other} s"));
         }
     }
