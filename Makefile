@@ -51,6 +51,7 @@ bench: build ## measure: speed beside a peer, memory; prints command, sample, fi
 	python3 benches/progress.py
 	python3 benches/beside_linuxcnc.py
 	python3 benches/linuxcnc_times.py
+	python3 benches/planner.py
 
 fuzz: cargo ## throw random programs at the reader and at the whole interpreter, FUZZ_SECONDS=60 each
 	ci/fuzz.sh read

@@ -87,8 +87,11 @@ fn rotary() -> Vec<Move> {
     ends.windows(2).map(|ends| Move { way: at(ends), feed: feed(20_000.0), share: 1.0, stops: false }).collect()
 }
 
+/// A path: its name, what the axes can do, and its moves.
+type Path = (&'static str, Limits, Vec<Move>);
+
 /// Name, machine, moves; single moves from rest to rest first.
-fn paths() -> (Vec<(&'static str, Limits, Vec<Move>)>, usize) {
+fn paths() -> (Vec<Path>, usize) {
     let (even, uneven) = (alike(0.01), unlike(0.01));
     let diagonal = || vec![line([0.0; 3], [40.0, 25.0, -30.0], 60_000.0)];
     let singles = vec![
