@@ -15,7 +15,9 @@
 //! above what it was before where it brakes; the mean makes them smooth.
 
 mod bounds;
+mod choice;
 mod drive;
+mod plan;
 mod polygon;
 mod rounding;
 mod settle;
@@ -26,7 +28,8 @@ use std::collections::VecDeque;
 use base::{AXES, Point};
 use meaning::Feed;
 
-use bounds::{Allowance, Bounds};
+use bounds::{Allowance, Bounds, Line};
+use choice::Beside;
 use drive::Drive;
 use polygon::Polygon;
 use rounding::Joint;
@@ -73,14 +76,17 @@ struct Piece {
     /// What the axes allow, all zones counted in: mm/s and mm/s².
     fastest: f64,
     push: f64,
-    /// What they allow on the piece itself, mm/s.
+    /// What they allow on the piece itself.
     own: f64,
+    own_push: f64,
     /// What the commanded feed allows, overrides counted in, mm/s.
     feed: f64,
     /// The highest squared speed of the plan at its start from which all the rest can be kept to.
     most: f64,
     /// The window of its run, s.
     window: f64,
+    /// When its end is reached at the earliest, if it is settled, s: only differences mean anything.
+    clock: f64,
     /// The moves whose feeds it keeps to.
     moves: [u64; 2],
     /// A move ends at its end; the axes stand there; it is a run of its own along a straight way.
@@ -106,10 +112,13 @@ pub struct JerkHorizon {
     last: Option<Open>,
     /// The axes stand behind the last piece.
     closed: bool,
+    /// The zones of pieces beyond their ends, and those before their beginnings.
     zones: Zones,
+    behind: Zones,
     /// The window of the run to which moves are added, s.
     window: f64,
-    /// Pieces whose highest speed is final.
+    /// Pieces whose bounds are final, and those whose highest speed is.
+    firm: usize,
     settled: usize,
     /// So many pieces are to be seen before looking again.
     goal: usize,
@@ -133,7 +142,9 @@ impl JerkHorizon {
             last: None,
             closed: false,
             zones: Zones::default(),
+            behind: Zones::default(),
             window: 0.0,
+            firm: 0,
             settled: 0,
             goal: 0,
             ready: false,
@@ -150,7 +161,7 @@ impl JerkHorizon {
         self.last = None;
         self.closed = false;
         self.zones.clear();
-        (self.settled, self.goal, self.ready) = (0, 0, false);
+        (self.firm, self.settled, self.goal, self.ready) = (0, 0, 0, false);
         self.drive.clear();
     }
 
@@ -210,6 +221,8 @@ impl JerkHorizon {
             rounding::joint(&self.limits, &last.way, &next.way, speed)
         };
         let straight = last.way.is_straight() && next.way.is_straight();
+        let corner = matches!(joint, Joint::Corner(_));
+        let joint = if corner && self.stands_between(last, next) { Joint::Rest } else { joint };
         if joint == Joint::Rest || !straight {
             self.end_way(last, &joint);
         }
@@ -307,6 +320,8 @@ impl JerkHorizon {
             fastest,
             push,
             own: fastest,
+            own_push: push,
+            clock: 0.0,
             feed: 0.0,
             most: 0.0,
             window: self.window,
@@ -348,13 +363,31 @@ impl JerkHorizon {
         next.map_or(0.0, |piece| self.feed_allows(&Piece { moves: [piece.moves[0]; 2], fastest: piece.own, ..*piece }))
     }
 
-    /// The window that suits a move best: a ramp from rest to its speed is then shortest.
-    fn wanted_window(&self, open: &Open) -> f64 {
+    /// What can be driven on a way, if it were straight.
+    fn line(&self, open: &Open) -> Line {
         let asked = self
             .asked(open.mover)
             .map_or(0.0, |asked| self.overrides.actual(&asked.feed).max(asked.feed.mm_per_min) / 60.0 * asked.share);
-        let bounds = Bounds::of(&open.way, self.limits.count);
-        bounds.window(&self.limits, self.rate(open.mover), asked).max(self.limits.servo_period)
+        Bounds::of(&open.way, self.limits.count).line(&self.limits, self.rate(open.mover), asked)
+    }
+
+    /// The window that suits a move best.
+    fn wanted_window(&self, open: &Open) -> f64 {
+        self.line(open).window().max(self.limits.servo_period)
+    }
+
+    /// True if the axes had better stand in the corner between two lines.
+    fn stands_between(&self, last: &Open, next: &Open) -> bool {
+        if last.start != Joint::Rest {
+            return false;
+        }
+        let beside = [last, next].map(|open| Beside { line: self.line(open), length: open.way.length() });
+        let (first, second) = (last.way.slope(0.0), next.way.slope(0.0));
+        let width = rounding::widest(&self.limits, &first, &second).min(beside[0].length).min(beside[1].length);
+        let asked = beside[0].line.speed.min(beside[1].line.speed);
+        let bounds = Bounds::of_corner(&first, &second, width);
+        let passed = bounds.allow(&self.limits, self.rate(next.mover), asked, self.window).fastest;
+        choice::stands(&beside[0], &beside[1], passed, width, self.window)
     }
 
     /// The speed that the feeds of a piece's moves allow, overrides counted in.

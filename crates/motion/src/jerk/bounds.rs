@@ -35,6 +35,25 @@ pub struct Allowance {
     pub push: f64,
 }
 
+/// What can be driven on a line: mm/s, mm/s², mm/s³.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Line {
+    /// Its speed.
+    pub speed: f64,
+    /// Its acceleration.
+    pub acceleration: f64,
+    /// Its jerk.
+    pub jerk: f64,
+}
+
+impl Line {
+    /// The window in which the speed is reached soonest: a ramp takes `v/u + T` with `u = j T / 2`, which is least for
+    /// `T = √(2 v / j)`; no axis uses more than the time in which its acceleration turns round.
+    pub fn window(&self) -> f64 {
+        (2.0 * self.speed / self.jerk).sqrt().min(2.0 * self.acceleration / self.jerk)
+    }
+}
+
 impl Bounds {
     /// Those of a whole way.
     pub fn of(way: &Way, count: usize) -> Bounds {
@@ -149,18 +168,24 @@ fn slower(mut speed: f64, cubic: f64, linear: f64, given: f64) -> f64 {
 }
 
 impl Bounds {
-    /// The window in which a speed is reached soonest: a ramp takes `v/u + T` with `u = j T / 2`, which is least for
-    /// `T = √(2 v / j)`; no axis uses more than the time in which its acceleration turns round.
-    pub fn window(&self, limits: &Limits, rate: fn(&AxisLimits) -> f64, asked: f64) -> f64 {
-        let (mut speed, mut acceleration, mut jerk) = (asked, f64::INFINITY, f64::INFINITY);
+    /// What can be driven straight on.
+    pub fn line(&self, limits: &Limits, rate: fn(&AxisLimits) -> f64, asked: f64) -> Line {
+        let mut line = Line { speed: asked, acceleration: f64::INFINITY, jerk: f64::INFINITY };
         for (axis, limit) in limits.axes[..limits.count].iter().enumerate() {
             let slope = self.slope[axis];
             if slope > 0.0 {
-                speed = speed.min(rate(limit) / slope);
-                acceleration = acceleration.min(limit.acceleration / slope);
-                jerk = jerk.min(limit.jerk / slope);
+                line.speed = line.speed.min(rate(limit) / slope);
+                line.acceleration = line.acceleration.min(limit.acceleration / slope);
+                line.jerk = line.jerk.min(limit.jerk / slope);
             }
         }
-        (2.0 * speed / jerk).sqrt().min(2.0 * acceleration / jerk)
+        line
+    }
+
+    /// Those of a corner between two directions, rounded by a hat of its own.
+    pub fn of_corner(before: &Point, behind: &Point, width: f64) -> Bounds {
+        let slope = std::array::from_fn(|axis| before[axis].abs().max(behind[axis].abs()));
+        let bend: Point = std::array::from_fn(|axis| (behind[axis] - before[axis]).abs() / width);
+        Bounds { slope, bend, twist: bend.map(|bend| bend / width), straight: false }
     }
 }

@@ -27,7 +27,7 @@ const REVERSAL: f64 = -0.866;
 /// The part of an axis' jerk which a jump within one servo period may take and still counts as none.
 const UNNOTICED: f64 = 2e-4;
 /// The shortest line that is rounded and the shortest arm, mm; a corner without room for it is a stop.
-pub const SHORTEST: f64 = 1e-6;
+const SHORTEST: f64 = 1e-6;
 /// The part of the tolerance that is used: deviations of arms are looked at in samples.
 pub const USED: f64 = 0.95;
 /// By how much of arm times change of direction, and of the arm's square times change of bend, three cubics leave the way.
@@ -67,6 +67,12 @@ pub fn joint(limits: &Limits, before: &Way, after: &Way, speed: f64) -> Joint {
         return if short { Joint::Rest } else { Joint::Corner(change) };
     }
     arms(limits, before, after, turn, jump)
+}
+
+/// The widest hat of a corner between two directions that is not near another one.
+pub fn widest(limits: &Limits, before: &Point, behind: &Point) -> f64 {
+    let change: Point = std::array::from_fn(|axis| behind[axis] - before[axis]);
+    6.0 * USED * limits.corner_tolerance / norm(&change, limits.count)
 }
 
 fn arms(limits: &Limits, before: &Way, after: &Way, turn: f64, jump: f64) -> Joint {

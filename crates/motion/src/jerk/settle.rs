@@ -66,23 +66,27 @@ pub(super) struct Zones {
     push: Least,
     /// Where on the run the next piece begins, mm.
     place: f64,
-    /// The highest bounds on the run.
-    highest: (f64, f64),
 }
 
 impl Zones {
+    /// Adds the zone of a piece beyond its end.
+    fn add(&mut self, piece: &Piece, end: f64) {
+        let end = end + piece.own * piece.window / 2.0 * WIDER + NOTHING;
+        self.fastest.add(piece.own, end);
+        self.push.add(piece.own_push, end);
+    }
+
     pub(super) fn clear(&mut self) {
         self.fastest.0.clear();
         self.push.0.clear();
-        (self.place, self.highest) = (0.0, (0.0, 0.0));
+        self.place = 0.0;
     }
 }
 
 impl JerkHorizon {
-    /// Adds a piece: what lies before it restrains it, and it what lies before.
+    /// Adds a piece, restrained by what lies before it.
     pub(super) fn push_piece(&mut self, piece: Piece) {
-        let reach = piece.fastest * piece.window / 2.0 * WIDER + NOTHING;
-        let (first, end) = (self.pieces.len(), self.zones.place + piece.length);
+        let end = self.zones.place + piece.length;
         let mut rest = piece;
         for cuts in 0..=MOST_CUTS {
             let place = end - rest.length;
@@ -105,46 +109,40 @@ impl JerkHorizon {
             (rest.from, rest.length) = (rest.from + cut, rest.length - cut);
         }
         self.zones.place = end;
-        self.zones.fastest.add(piece.fastest, end + reach);
-        self.zones.push.add(piece.push, end + reach);
-        self.restrain(first, &piece, reach);
-        let highest = &mut self.zones.highest;
-        *highest = (highest.0.max(piece.fastest), highest.1.max(piece.push));
+        self.zones.add(&piece, end);
     }
 
-    /// Lowers the bounds of what lies before a piece to its own.
-    fn restrain(&mut self, first: usize, piece: &Piece, reach: f64) {
-        if piece.fastest >= self.zones.highest.0 && piece.push >= self.zones.highest.1 {
-            return;
+    /// Lowers the bounds of a piece to those of the zones of what lies behind it, `way` from the end of all that is
+    /// known; where zones end on it, it is cut, and goes on before the part that is left at its place.
+    fn restrain(&mut self, index: usize, way: f64) -> bool {
+        let (fastest, until) = self.behind.fastest.at(way);
+        let (push, push_until) = self.behind.push.at(way);
+        let piece = &mut self.pieces[index];
+        let mut reach = f64::INFINITY;
+        if fastest < piece.fastest {
+            reach = reach.min(until - way);
         }
-        let (mut way, mut seconds) = (0.0, 0.0);
-        let mut index = first;
-        while index > self.settled && way < reach && seconds < piece.window * WIDER {
-            index -= 1;
-            let other = &mut self.pieces[index];
-            if other.stops {
-                break;
-            }
-            let length = other.length;
-            if other.fastest > piece.fastest || other.push > piece.push {
-                let (fastest, push) = (other.fastest.min(piece.fastest), other.push.min(piece.push));
-                let free = length - (reach - way);
-                if free > length * WORTH_A_CUT {
-                    let back = Piece { from: other.from + free, length: length - free, fastest, push, ..*other };
-                    (other.length, other.ends) = (free, false);
-                    self.pieces.insert(index + 1, back);
-                    return;
-                }
-                (other.fastest, other.push) = (fastest, push);
-            }
-            way += length;
-            seconds += length / other.fastest;
+        if push < piece.push {
+            reach = reach.min(push_until - way);
         }
+        if reach == f64::INFINITY {
+            return false;
+        }
+        let free = piece.length - reach;
+        let cut = free > piece.length * WORTH_A_CUT;
+        let before = Piece { length: free, ends: false, stops: false, ..*piece };
+        (piece.fastest, piece.push) = (fastest.min(piece.fastest), push.min(piece.push));
+        if cut {
+            (piece.from, piece.length) = (piece.from + free, reach);
+            self.pieces.insert(index, before);
+        }
+        cut
     }
 
     /// True while more of what follows would let the next move be driven faster, or might; with nothing more to come,
     /// [`JerkHorizon::stop`] says so.
     pub fn wants_more(&mut self) -> bool {
+        self.ready = self.ready || self.next_is_settled();
         if self.ready {
             return false;
         }
@@ -155,7 +153,8 @@ impl JerkHorizon {
             }
             self.settle();
             if !self.next_is_settled() {
-                self.goal = (seen + (seen - self.settled).max(BATCH)).min(MOST_PIECES);
+                let unsure = self.pieces.len().saturating_sub(self.settled);
+                self.goal = (self.pieces.len() + unsure.max(BATCH)).min(MOST_PIECES);
                 return true;
             }
         } else {
@@ -171,19 +170,14 @@ impl JerkHorizon {
 
     /// True if the next move can be driven as fast as if all the rest were known: the plan is a window ahead.
     fn next_is_settled(&self) -> bool {
-        let mut beyond: Option<f64> = None;
-        for piece in self.pieces.iter().take(self.settled.saturating_sub(1)) {
-            if let Some(seconds) = &mut beyond {
-                *seconds += piece.length / piece.fastest;
-            } else if piece.ends {
-                beyond = Some(0.0);
-            }
-            if beyond.is_some_and(|seconds| piece.stops || seconds >= piece.window * WIDER) {
-                return true;
-            }
+        let Some(ends) = self.pieces.iter().take(self.settled).find(|piece| piece.ends) else { return false };
+        let Some(last) = self.settled.checked_sub(1).and_then(|last| self.pieces.get(last)) else { return false };
+        if last.stops {
+            return true;
         }
-        let last = self.settled.checked_sub(1).and_then(|last| self.pieces.get(last));
-        last.is_some_and(|last| last.stops && (beyond.is_some() || last.ends))
+        // What is planned in a piece depends on the speed with which the next may begin.
+        let before = self.settled.checked_sub(2).and_then(|last| self.pieces.get(last));
+        before.is_some_and(|before| before.clock - ends.clock >= ends.window * WIDER)
     }
 
     /// The highest squared speed of the plan at the end of a piece.
@@ -196,16 +190,26 @@ impl JerkHorizon {
 
     /// Gives every piece that is not final yet its highest speed, and finds which of them are final.
     pub(super) fn settle(&mut self) {
-        let seen = self.pieces.len();
-        let mut final_from = if self.closed { seen } else { self.settled };
+        let (mut final_behind, mut firm_behind) = (None, None);
         let floor =
             self.limits.axes[..self.limits.count].iter().map(|axis| self.floor(axis)).fold(f64::INFINITY, f64::min);
         // Whether more is to come, how far off and, at least, how long.
         let (mut open, mut way, mut behind) = (!self.closed, 0.0, 0.0);
-        for index in (self.settled..seen).rev() {
+        self.behind.clear();
+        let mut index = self.pieces.len();
+        while index > self.settled {
+            index -= 1;
+            let stops = self.pieces[index].stops;
+            open &= !stops;
+            if stops {
+                self.behind.clear();
+            }
+            if index >= self.firm && self.restrain(index, way) {
+                // The part before it is looked at next.
+                index += 1;
+            }
             let end = self.end_of(index);
             let piece = &mut self.pieces[index];
-            open &= !piece.stops;
             let (allowed, window) = (piece.allowed(), piece.window * WIDER * WIDER);
             let gain = if open && behind < window {
                 let push = piece.push.min(floor);
@@ -214,13 +218,36 @@ impl JerkHorizon {
                 2.0 * piece.push * piece.length
             };
             piece.most = allowed.min(end + gain);
-            if final_from <= index && (piece.stops || (behind >= window && piece.most >= allowed)) {
-                final_from = index + 1;
+            if final_behind.is_none() && (piece.stops || (behind >= window && piece.most >= allowed)) {
+                // Counted from the end, for pieces before it may still be cut.
+                final_behind = Some(self.pieces.len() - index - 1);
             }
+            if firm_behind.is_none() && (!open || behind >= window) {
+                firm_behind = Some(self.pieces.len() - index - 1);
+            }
+            let piece = &self.pieces[index];
             way += piece.length;
             behind += piece.length / piece.fastest;
+            self.behind.add(&self.pieces[index], way);
         }
-        self.settled = final_from.max(self.settled);
+        let seen = self.pieces.len();
+        let final_from = if self.closed { seen } else { final_behind.map_or(self.settled, |behind| seen - behind) };
+        self.firm = self.firm.max(firm_behind.map_or(0, |behind| seen - behind));
+        self.time_from(self.settled, final_from);
+        self.settled = final_from;
+    }
+
+    /// Gives pieces their clock.
+    fn time_from(&mut self, from: usize, to: usize) {
+        let mut clock = from.checked_sub(1).map_or(0.0, |before| self.pieces[before].clock);
+        for piece in self.pieces.range_mut(from..to) {
+            clock += piece.length / piece.fastest;
+            piece.clock = clock;
+            if piece.stops {
+                // A plan that stands waits for its mean.
+                clock += 2.0 * piece.window;
+            }
+        }
     }
 
     /// What no piece allows less of along the way, unless it says so by its speed.

@@ -1,11 +1,12 @@
 //! The axes stand at the end of the first move at whose end they can: what follows it is no longer known.
 
-use super::rounding::SHORTEST;
 use super::{JerkHorizon, Joint, Open, Piece};
-use crate::way::{Way, norm};
+use crate::way::Way;
 
 /// A speed as little above what can be braked from is rounding.
 const ROUNDING: f64 = 1e-12;
+/// A way as short as this is none, mm.
+const NOTHING: f64 = 1e-9;
 
 impl JerkHorizon {
     /// Forgets what lies behind the end of the first move at whose end the axes can stand; how many moves are left.
@@ -35,6 +36,7 @@ impl JerkHorizon {
 
     fn forget_behind(&mut self, last: usize) {
         self.pieces.truncate(last + 1);
+        self.firm = self.pieces.len();
         let Some(&piece) = self.pieces.back() else { return };
         let mover = piece.moves[0];
         self.ways.truncate((piece.way + 1).saturating_sub(self.first_way) as usize);
@@ -57,7 +59,7 @@ impl JerkHorizon {
     fn add_rest_of_corner(&mut self, piece: &Piece, mover: u64) {
         let (Some(way), Some(asked)) = (self.way(piece.way), self.asked(mover)) else { return };
         let way = Way::line(&way.at(piece.end()), &asked.to, self.limits.count);
-        if way.length() <= SHORTEST || norm(&way.slope(0.0), self.limits.count) == 0.0 {
+        if way.length() <= NOTHING {
             return;
         }
         if let Some(piece) = self.pieces.back_mut() {
