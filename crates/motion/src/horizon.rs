@@ -31,6 +31,8 @@ pub const MOST_CELLS: usize = 16_384;
 const UNEVEN: f64 = 0.00225;
 /// So much of it is let pass; by the rest less is used of what the axes can give.
 const LET_PASS: f64 = 0.0008;
+/// Speed may change by so much more between the places of a blend that are looked at.
+const MORE: f64 = 1.2;
 /// Radians that a cell of an arc turns at most; and where it is driven from rest to rest at changing speeds, which are
 /// lost on by 0.15 of that.
 const WIDEST: f64 = 0.06;
@@ -238,7 +240,8 @@ impl Horizon {
         let turned = length * ends.map(|bend| norm(&bend, AXES)).into_iter().fold(0.0, f64::max);
         // Between the ends of a cell an acceleration is off the straight line between theirs as 5/8 of the third
         // derivative, by the change of speed and the square of the length.
-        let u = [0.0, length].map(|s| self.hardest_along(&blend.slope(s))).into_iter().fold(0.0, f64::max);
+        let looked_at = [0.0, length / 2.0, length];
+        let u = looked_at.map(|s| MORE * self.hardest_along(&blend.slope(s))).into_iter().fold(0.0, f64::max);
         let mut uneven = 0.0f64;
         for (limit, cube) in self.limits.axes.iter().zip(cube).take(self.limits.count) {
             uneven = uneven.max(0.625 * 6.0 * cube.abs() * u * length * length / limit.acceleration);

@@ -19,7 +19,8 @@ const ROUNDING: f64 = 1e-9;
 fn over_programs(check: impl Fn(u64, &Program) -> Result<(), String>) {
     let wanted = samples_asked(PROGRAMS);
     let mut wrong = Vec::new();
-    for seed in 0..wanted {
+    let only: Option<Vec<u64>> = std::env::var("ONLY").ok().map(|s| s.split(',').map(|n| n.parse().unwrap()).collect());
+    for seed in only.unwrap_or_else(|| (0..wanted).collect()) {
         let program = program(seed);
         let checked = std::panic::catch_unwind(AssertUnwindSafe(|| check(seed, &program)));
         if let Err(what) = checked.unwrap_or_else(|_| Err("it panics".to_owned())) {

@@ -245,7 +245,10 @@ impl Horizon {
             None => {
                 let edges = [start, cell.part[1]].map(|s| Edge::new(way, s));
                 let rate = self.rate(cell.moves);
-                Cell::bent(&self.limits, cell.way, [start, cell.part[1]], [&edges[0], &edges[1]], rate, 1.0)
+                // What a cell is uneven by goes with the square of its length.
+                let rest = (cell.part[1] - start) / cell.length();
+                let share = 1.0 - (1.0 - cell.share) * rest * rest;
+                Cell::bent(&self.limits, cell.way, [start, cell.part[1]], [&edges[0], &edges[1]], rate, share)
             }
         };
         new.ends = match cell.ends {
