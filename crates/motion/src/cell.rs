@@ -41,6 +41,8 @@ pub struct Cell {
     rates_allow: f64,
     /// What the commanded feed allows, overrides counted in.
     pub feed_allows: f64,
+    /// The highest squared speed at its start, for the corner there.
+    pub enters: f64,
     /// How far the axes move for each mm of the way, squared; its most.
     pub pace: f64,
     /// The cell's own squared speed at its end for each one of the next cell's, where their ways count differently.
@@ -100,6 +102,7 @@ impl Cell {
             axes_allow: f64::INFINITY,
             rates_allow: f64::INFINITY,
             feed_allows: f64::INFINITY,
+            enters: f64::INFINITY,
             pace: 1.0,
             gain: 1.0,
             most: 0.0,
@@ -165,7 +168,7 @@ impl Cell {
 
     /// The rest of a straight one.
     pub fn from(&self, start: f64) -> Cell {
-        Cell { part: [start, self.part[1]], ..*self }
+        Cell { part: [start, self.part[1]], enters: f64::INFINITY, ..*self }
     }
 
     /// Its length, mm.
@@ -178,6 +181,11 @@ impl Cell {
         self.rates_allow.min(self.feed_allows)
     }
 
+    /// What may be driven at its very start.
+    pub fn highest(&self) -> f64 {
+        self.allowed().min(self.enters)
+    }
+
     /// The acceleration along it, if it is straight.
     pub fn acceleration(&self) -> Option<f64> {
         self.straight
@@ -186,12 +194,12 @@ impl Cell {
     /// Finds the highest speeds from which its end is reached with at most `end`.
     pub fn settle(&mut self, end: f64) {
         (self.peak, self.leads_to) = self.peak_before(end);
-        self.most = self.peak.min(self.allowed());
+        self.most = self.peak.min(self.highest());
     }
 
     /// The highest squared speed at its start from which its end is reached with at most `end`.
     pub fn most_before(&self, end: f64) -> f64 {
-        self.peak_before(end).0.min(self.allowed())
+        self.peak_before(end).0.min(self.highest())
     }
 
     fn peak_before(&self, end: f64) -> (f64, f64) {
@@ -274,6 +282,14 @@ impl Cell {
         }
         // Where rounding leaves nothing between them.
         if low > high { [(low + high) / 2.0; 2] } else { [low, high] }
+    }
+
+    /// The lowest squared speed at its end that the axes can come to from `x`, where they cannot stand in it.
+    pub fn slowest_after(&self, x: f64) -> f64 {
+        match self.straight {
+            Some(acceleration) => x - 2.0 * acceleration * self.length(),
+            None => self.reach(x)[0].max(0.0),
+        }
     }
 
     /// The acceleration with which the axes come to stand in it from the squared speed `x` at its start, if they can.

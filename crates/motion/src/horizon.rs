@@ -71,6 +71,8 @@ struct Open {
     from: f64,
     /// The axes stand at its beginning.
     from_rest: bool,
+    /// The highest squared speed there.
+    enters: f64,
 }
 
 /// The moves ahead.
@@ -140,7 +142,7 @@ impl Horizon {
         debug_assert!(!self.closed && next.way.length() > 0.0, "nothing is seen behind a stop");
         let mover = self.first_move + self.asked.len() as u64;
         self.asked.push_back(Asked { feed: next.feed, share: next.share });
-        let mut open = Open { way: next.way, number: 0, mover, from: 0.0, from_rest: true };
+        let mut open = Open { way: next.way, number: 0, mover, from: 0.0, from_rest: true, enters: f64::INFINITY };
         if let Some(last) = self.open.take() {
             self.join(&last, &mut open);
         }
@@ -164,8 +166,8 @@ impl Horizon {
         let speed = self.wanted(last.mover).min(self.wanted(next.mover));
         match corner(&self.limits, &last.way, &next.way, speed) {
             Corner::Stop => self.end_at_rest(last),
-            Corner::Passed => {
-                next.from_rest = false;
+            Corner::Passed(most) => {
+                (next.from_rest, next.enters) = (false, most * most);
                 self.cut(last, last.way.length(), false);
                 self.end_move(Ends::AtEnd, false);
                 self.link(pace(&next.way, 0.0));
@@ -214,7 +216,11 @@ impl Horizon {
             let each = turned / pieces as f64;
             share = share_of(0.625 * each * each);
         }
+        let first = self.cells.len();
         self.push((open.number, &open.way), [open.from, end], (pieces, share), [open.mover; 2]);
+        if let Some(cell) = self.cells.get_mut(first) {
+            cell.enters = open.enters;
+        }
     }
 
     /// The part of its time for which the speed of an arc changes that is driven from rest to rest, roughly.

@@ -338,12 +338,13 @@ fn speed_up_bent(cell: &Cell, x: f64, end: f64) -> Legs {
             ..Leg::default()
         });
     };
-    let met = if x > cell.most { meets_falling(cell, x, low) } else { meets_rising(cell, x, high, end) };
+    let is_over = x > peak.min(allowed);
+    let met = if is_over { meets_falling(cell, x, low) } else { meets_rising(cell, x, high, end) };
     let Some((met, hard)) = met else {
         // Where the axes are to stand they do, be it that a rounding has made them a little too fast for it.
         let reached = if cell.stops {
             0.0
-        } else if x > cell.most {
+        } else if is_over {
             low.max(0.0)
         } else {
             high.min(end).max(0.0)
@@ -433,10 +434,7 @@ fn slow_down(cell: &Cell, x: f64) -> Legs {
         });
         return legs;
     }
-    let reached = match cell.acceleration() {
-        Some(acceleration) => x - 2.0 * acceleration * length,
-        None => cell.reach(x)[0].max(0.0),
-    };
+    let reached = cell.slowest_after(x);
     let seconds = 2.0 * length / (speed + reached.sqrt());
     legs.push(Leg { s: start, speed, acceleration: (reached - x) / (2.0 * length), seconds, ..Leg::default() });
     legs.end = Some(reached);

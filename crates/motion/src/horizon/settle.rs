@@ -65,7 +65,7 @@ impl Horizon {
             cell.settle(end);
             if final_from <= index {
                 // Its own limits hold it, or a stop: not where the look-ahead ends.
-                let is_held = cell.stops || cell.most >= cell.allowed() || cell.most >= cell.most_before(f64::INFINITY);
+                let is_held = cell.stops || cell.most >= cell.highest() || cell.most >= cell.most_before(f64::INFINITY);
                 if is_held {
                     final_from = index + 1;
                 }
