@@ -18,9 +18,9 @@ use meaning::Feed;
 use drive::Drive;
 pub use drive::{Leg, Setpoint};
 
-use crate::cell::{Cell, Edge, Ends, Rate};
+use crate::cell::{Cell, Edge, Ends};
 use crate::corner::{Corner, corner, round};
-use crate::limits::{AxisLimits, Limits};
+use crate::limits::{AxisLimits, Limits, Scale};
 use crate::overrides::Overrides;
 use crate::way::{Way, norm};
 
@@ -79,6 +79,9 @@ struct Open {
 #[derive(Clone, Debug)]
 pub struct Horizon {
     limits: Limits,
+    /// The same for cutting feeds and for the rapid rate.
+    at_feed: Scale,
+    at_rapid: Scale,
     overrides: Overrides,
     cells: VecDeque<Cell>,
     /// The ways of the cells, and the first one's number.
@@ -92,6 +95,8 @@ pub struct Horizon {
     closed: bool,
     /// Cells whose highest speed is final.
     settled: usize,
+    /// Cells whose speeds follow from those behind them as these are.
+    looked: usize,
     /// So many cells are to be seen before looking again.
     goal: usize,
     drive: Drive,
@@ -102,6 +107,8 @@ impl Horizon {
     pub fn new(limits: Limits) -> Horizon {
         Horizon {
             limits,
+            at_feed: Scale::new(&limits, |axis| axis.max_feed),
+            at_rapid: Scale::new(&limits, |axis| axis.rapid),
             overrides: Overrides::default(),
             cells: VecDeque::new(),
             ways: VecDeque::new(),
@@ -111,6 +118,7 @@ impl Horizon {
             open: None,
             closed: false,
             settled: 0,
+            looked: 0,
             goal: 0,
             drive: Drive::default(),
         }
@@ -123,7 +131,7 @@ impl Horizon {
         self.asked.clear();
         self.open = None;
         self.closed = false;
-        (self.settled, self.goal) = (0, 0);
+        (self.settled, self.looked, self.goal) = (0, 0, 0);
         self.drive = Drive::default();
     }
 
@@ -279,9 +287,8 @@ impl Horizon {
         (pieces, share): (usize, f64),
         moves: [u64; 2],
     ) {
-        let rate = self.rate(moves);
         if let Way::Line { along, .. } = way {
-            let cell = Cell::straight(&self.limits, number, [from, to], along, rate);
+            let cell = Cell::straight(self.scale(moves), number, [from, to], along);
             return self.push_cell(cell, moves);
         }
         let step = (to - from) / pieces as f64;
@@ -289,7 +296,7 @@ impl Horizon {
         for piece in 1..=pieces {
             let end = if piece == pieces { to } else { from + step * piece as f64 };
             let next = Edge::new(way, end);
-            let cell = Cell::bent(&self.limits, number, [start, end], [&edge, &next], rate, share);
+            let cell = Cell::bent(self.scale(moves), number, [start, end], [&edge, &next], share);
             self.push_cell(cell, moves);
             (start, edge) = (end, next);
         }
@@ -297,7 +304,7 @@ impl Horizon {
 
     fn push_cell(&mut self, mut cell: Cell, moves: [u64; 2]) {
         cell.moves = moves;
-        cell.feed_allows = self.feed_allows(&cell);
+        cell.set_feed(self.feed_allows(&cell));
         self.cells.push_back(cell);
     }
 
@@ -320,9 +327,9 @@ impl Horizon {
         self.asked.get(mover.checked_sub(self.first_move)? as usize)
     }
 
-    /// Which rate of an axis bounds what lies on two moves.
-    fn rate(&self, moves: [u64; 2]) -> Rate {
-        if moves.into_iter().all(|mover| self.is_at_rapid(mover)) { |axis| axis.rapid } else { |axis| axis.max_feed }
+    /// The limits that bound what lies on two moves.
+    fn scale(&self, moves: [u64; 2]) -> &Scale {
+        if moves.into_iter().all(|mover| self.is_at_rapid(mover)) { &self.at_rapid } else { &self.at_feed }
     }
 
     /// The speed that a move asks for along its way without overrides, mm/s.
@@ -382,7 +389,7 @@ impl Horizon {
         self.cut_here();
         for index in 0..self.cells.len() {
             let allows = self.feed_allows(&self.cells[index]);
-            self.cells[index].feed_allows = allows;
+            self.cells[index].set_feed(allows);
         }
         self.settled = 0;
         self.look_again();

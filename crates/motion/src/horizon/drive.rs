@@ -244,11 +244,10 @@ impl Horizon {
             Some(_) => cell.from(start),
             None => {
                 let edges = [start, cell.part[1]].map(|s| Edge::new(way, s));
-                let rate = self.rate(cell.moves);
                 // What a cell is uneven by goes with the square of its length.
                 let rest = (cell.part[1] - start) / cell.length();
                 let share = 1.0 - (1.0 - cell.share) * rest * rest;
-                Cell::bent(&self.limits, cell.way, [start, cell.part[1]], [&edges[0], &edges[1]], rate, share)
+                Cell::bent(self.scale(cell.moves), cell.way, [start, cell.part[1]], [&edges[0], &edges[1]], share)
             }
         };
         new.ends = match cell.ends {
@@ -291,6 +290,7 @@ impl Horizon {
         let x = self.drive.legs.take().and_then(|legs| legs.end).unwrap_or(0.0);
         self.drive.x = if cell.stops { 0.0 } else { x / cell.gain };
         self.settled = self.settled.saturating_sub(1);
+        self.looked = self.looked.saturating_sub(1);
         self.goal = self.goal.saturating_sub(1);
         let open = self.open.as_ref().map_or(u64::MAX, |open| open.number);
         let needed = self.cells.front().map_or(open, |next| next.way);
