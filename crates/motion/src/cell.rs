@@ -10,7 +10,7 @@
 use base::{AXES, Point};
 
 use crate::limits::Scale;
-use crate::way::{Way, dot};
+use crate::way::{Edge, dot};
 
 /// One strip: `-half ≤ x + lean y ≤ half`.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -74,20 +74,6 @@ pub struct Cell {
     top: Option<[f64; 2]>,
     strips: [Strip; STRIPS],
     count: usize,
-}
-
-/// A place on a way: how the axes move there for each mm of it, and how that changes.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Edge {
-    slope: Point,
-    bend: Point,
-}
-
-impl Edge {
-    /// The place at this length of a way.
-    pub fn new(way: &Way, s: f64) -> Edge {
-        Edge { slope: way.slope(s), bend: way.bend(s) }
-    }
 }
 
 /// Where in a cell a move ends.

@@ -18,11 +18,11 @@ use meaning::Feed;
 use drive::Drive;
 pub use drive::{Leg, Setpoint};
 
-use crate::cell::{Cell, Edge, Ends};
+use crate::cell::{Cell, Ends};
 use crate::corner::{Corner, corner, round};
 use crate::limits::{AxisLimits, Limits, Scale};
 use crate::overrides::Overrides;
-use crate::way::{Way, norm};
+use crate::way::{Edges, Way, norm};
 
 /// The longest look-ahead, cells. A program of points 1 µm apart is then seen 16 mm ahead.
 pub const MOST_CELLS: usize = 16_384;
@@ -35,7 +35,7 @@ const LET_PASS: f64 = 0.0008;
 const MORE: f64 = 1.2;
 /// Radians that a cell of an arc turns at most; and where it is driven from rest to rest at changing speeds, which are
 /// lost on by 0.15 of that.
-const WIDEST: f64 = 0.06;
+const WIDEST: f64 = 0.16;
 const FINEST: f64 = 0.004;
 /// Most cells of a single way.
 const MOST_OF_A_WAY: usize = 1600;
@@ -287,24 +287,26 @@ impl Horizon {
         (pieces, share): (usize, f64),
         moves: [u64; 2],
     ) {
+        let asked = self.slowest(moves);
         if let Way::Line { along, .. } = way {
             let cell = Cell::straight(self.scale(moves), number, [from, to], along);
-            return self.push_cell(cell, moves);
+            return self.push_cell(cell, moves, asked);
         }
         let step = (to - from) / pieces as f64;
-        let (mut start, mut edge) = (from, Edge::new(way, from));
+        let mut edges = Edges::new(way, from, step);
+        let (mut start, mut edge) = (from, edges.next());
         for piece in 1..=pieces {
             let end = if piece == pieces { to } else { from + step * piece as f64 };
-            let next = Edge::new(way, end);
+            let next = edges.next();
             let cell = Cell::bent(self.scale(moves), number, [start, end], [&edge, &next], share);
-            self.push_cell(cell, moves);
+            self.push_cell(cell, moves, asked);
             (start, edge) = (end, next);
         }
     }
 
-    fn push_cell(&mut self, mut cell: Cell, moves: [u64; 2]) {
+    fn push_cell(&mut self, mut cell: Cell, moves: [u64; 2], asked: f64) {
         cell.moves = moves;
-        cell.set_feed(self.feed_allows(&cell));
+        cell.set_feed(self.feed_allows(&cell, asked));
         self.cells.push_back(cell);
     }
 
@@ -348,14 +350,15 @@ impl Horizon {
         self.overrides.actual(&asked.feed) / 60.0 * asked.share
     }
 
-    /// The squared speed that the feeds of a cell's moves allow, overrides counted in.
-    fn feed_allows(&self, cell: &Cell) -> f64 {
-        let mut slowest = f64::INFINITY;
-        for mover in cell.moves {
-            let Some(asked) = self.asked(mover) else { continue };
-            slowest = slowest.min(self.asks(asked));
-        }
-        let mut allows = slowest * slowest / cell.pace;
+    /// The slowest speed that one of these moves asks for along its way, mm/s, overrides counted in.
+    fn slowest(&self, moves: [u64; 2]) -> f64 {
+        let asks = moves.map(|mover| self.asked(mover).map_or(f64::INFINITY, |asked| self.asks(asked)));
+        asks[0].min(asks[1])
+    }
+
+    /// The squared speed that the feeds of a cell's moves allow, overrides counted in, of which the slowest is `asked`.
+    fn feed_allows(&self, cell: &Cell, asked: f64) -> f64 {
+        let mut allows = asked * asked / cell.pace;
         let overrides = &self.overrides;
         let tells = overrides.rapid != 1.0 || overrides.rapid_limit < f64::INFINITY || overrides.dry_run.is_some();
         if tells && cell.moves.into_iter().any(|mover| self.is_at_rapid(mover)) {
@@ -388,7 +391,8 @@ impl Horizon {
         self.overrides = overrides;
         self.cut_here();
         for index in 0..self.cells.len() {
-            let allows = self.feed_allows(&self.cells[index]);
+            let cell = &self.cells[index];
+            let allows = self.feed_allows(cell, self.slowest(cell.moves));
             self.cells[index].set_feed(allows);
         }
         self.settled = 0;

@@ -3,8 +3,8 @@
 use base::{AXES, Point};
 
 use super::Horizon;
-use crate::cell::{Cell, Edge, Ends};
-use crate::way::Way;
+use crate::cell::{Cell, Ends};
+use crate::way::{Edge, Way};
 
 /// A rest of way shorter than this is none, mm.
 const NOTHING_LEFT: f64 = 1e-9;
