@@ -2,12 +2,15 @@
 
 use base::{AXES, Point};
 
-use super::Horizon;
+use super::{Horizon, LET_PASS, share_of};
 use crate::cell::{Cell, Ends};
 use crate::way::{Edge, Way};
 
 /// A rest of way shorter than this is none, mm.
 const NOTHING_LEFT: f64 = 1e-9;
+
+/// A cell that is cut in mid-path is cut into so many at most.
+const MOST_PIECES: usize = 12;
 
 /// A stretch along a way in which the acceleration is constant or, under model `jerk`, changes steadily.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -237,26 +240,46 @@ impl Horizon {
             return;
         }
         (self.drive.leg, self.drive.spent, self.drive.x) = (0, 0.0, speed * speed);
-        let Some(cell) = self.cells.pop_front() else { return };
-        let Some(way) = self.way(cell.way) else { return };
+        let Some(mut cell) = self.cells.pop_front() else { return };
         let start = s.clamp(cell.part[0], cell.part[1] - NOTHING_LEFT / 2.0);
-        let mut new = match cell.acceleration() {
-            Some(_) => cell.from(start),
-            None => {
-                let edges = [start, cell.part[1]].map(|s| Edge::new(way, s));
-                // What a cell is uneven by goes with the square of its length.
-                let rest = (cell.part[1] - start) / cell.length();
-                let share = 1.0 - (1.0 - cell.share) * rest * rest;
-                Cell::bent(self.scale(cell.moves), cell.way, [start, cell.part[1]], [&edges[0], &edges[1]], share)
-            }
-        };
-        new.ends = match cell.ends {
+        cell.ends = match cell.ends {
             Ends::At(_) if is_passed => Ends::Not,
             Ends::At(border) => Ends::At(border.max(start)),
             other => other,
         };
-        (new.moves, new.feed_allows, new.gain, new.stops) = (cell.moves, cell.feed_allows, cell.gain, cell.stops);
-        self.cells.push_front(new);
+        self.push_rest(&cell, start);
+    }
+
+    /// Puts the rest of a cell in front of the others.
+    fn push_rest(&mut self, cell: &Cell, start: f64) {
+        let Some(way) = self.way(cell.way).copied() else { return };
+        if cell.acceleration().is_some() {
+            return self.cells.push_front(cell.from(start));
+        }
+        // In its middle the axes may be asked for more than at its ends; what it is uneven by goes with the square of its
+        // length, so the rest is cut until that does not matter.
+        let length = cell.part[1] - start;
+        let uneven =
+            if cell.share < 1.0 { 1.0 + LET_PASS - cell.share } else { 0.0 } * (length / cell.length()).powi(2);
+        let pieces = ((uneven / LET_PASS).sqrt().ceil() as usize).clamp(1, MOST_PIECES);
+        let share = share_of(uneven / (pieces * pieces) as f64);
+        for piece in (0..pieces).rev() {
+            let is_last = piece + 1 == pieces;
+            let [from, to] = [piece, piece + 1].map(|piece| start + length * piece as f64 / pieces as f64);
+            let part = [from, if is_last { cell.part[1] } else { to }];
+            let edges = part.map(|s| Edge::new(&way, s));
+            let mut rest = Cell::bent(self.scale(cell.moves), cell.way, part, [&edges[0], &edges[1]], share);
+            rest.ends = match cell.ends {
+                Ends::At(border) if border <= part[1] && (border > from || piece == 0) => Ends::At(border),
+                Ends::AtEnd if is_last => Ends::AtEnd,
+                _ => Ends::Not,
+            };
+            (rest.moves, rest.feed_allows) = (cell.moves, cell.feed_allows);
+            if is_last {
+                (rest.gain, rest.stops) = (cell.gain, cell.stops);
+            }
+            self.cells.push_front(rest);
+        }
     }
 
     /// True if in the first cell a move has ended already.
