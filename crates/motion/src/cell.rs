@@ -10,7 +10,7 @@
 use base::{AXES, Point};
 
 use crate::limits::Scale;
-use crate::way::{Edge, dot};
+use crate::way::Edge;
 
 /// One strip: `-half ≤ x + lean y ≤ half`.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -88,7 +88,9 @@ pub enum Ends {
 }
 
 impl Cell {
-    fn new(way: u64, part: [f64; 2]) -> Cell {
+    /// A cell of which nothing is known but where it is.
+    #[inline]
+    pub fn new(way: u64, part: [f64; 2]) -> Cell {
         Cell {
             way,
             part,
@@ -130,28 +132,37 @@ impl Cell {
     /// are asked for more than there.
     pub fn bent(scale: &Scale, way: u64, part: [f64; 2], edges: [&Edge; 2], share: f64) -> Cell {
         let mut cell = Cell::new(way, part);
-        let per_u = 0.5 / cell.length();
+        cell.bend(scale, edges, share);
+        cell
+    }
+
+    /// Bends a new cell.
+    #[inline]
+    pub fn bend(&mut self, scale: &Scale, [start, end]: [&Edge; 2], share: f64) {
+        let per_u = 0.5 / self.length();
         let (mut fastest, mut hardest) = (0.0f64, 0.0f64);
-        let [start, end] = edges;
-        for axis in 0..scale.count {
+        let (mut first, mut last) = (0.0, 0.0);
+        self.share = share;
+        for axis in 0..scale.count.min(AXES) {
             let (slopes, bends) = ([start.slope[axis], end.slope[axis]], [start.bend[axis], end.bend[axis]]);
             if slopes == [0.0; 2] && bends == [0.0; 2] {
                 continue;
             }
+            first += slopes[0] * slopes[0];
+            last += slopes[1] * slopes[1];
             let given = scale.acceleration[axis] * share;
             fastest = fastest.max(slopes[0].abs().max(slopes[1].abs()) * scale.per_rate[axis]);
             hardest = hardest.max(bends[0].abs().max(bends[1].abs()) * scale.per_acceleration[axis]);
             let across = slopes.map(|slope| slope * per_u);
-            cell.strips[cell.count] = Strip::new(bends[0] - across[0], across[0], given);
-            cell.strips[cell.count + 1] = Strip::new(-across[1], bends[1] + across[1], given);
-            cell.count += 2;
+            if let Some(strips) = self.strips.get_mut(self.count..self.count + 2) {
+                strips[0] = Strip::new(bends[0] - across[0], across[0], given);
+                strips[1] = Strip::new(-across[1], bends[1] + across[1], given);
+                self.count += 2;
+            }
         }
-        cell.share = share;
-        cell.rates_allow = (share * share) / (fastest * fastest);
-        cell.axes_allow = (share / hardest).min(cell.rates_allow);
-        let [start, end] = edges.map(|edge| dot(&edge.slope, &edge.slope, scale.count));
-        cell.pace = start.max(end);
-        cell
+        self.rates_allow = (share * share) / (fastest * fastest);
+        self.axes_allow = (share / hardest).min(self.rates_allow);
+        self.pace = f64::max(first, last);
     }
 
     /// The rest of a straight one.
@@ -209,17 +220,25 @@ impl Cell {
         // What is allowed can be driven all along the cell, so it does not bound its very start; or it cannot.
         let allowed = self.allowed();
         let most = if allowed <= self.axes_allow { f64::MAX } else { allowed };
-        let (below, above) = self.bounds(end, most);
-        if above.lean <= 0.0 && above.at(end) >= below.at(end) {
-            return Peak { x: above.at(end).max(0.0), y: end, is_top: false };
+        let (mut highest, mut lean, mut lowest) = (most, 0.0, 0.0f64);
+        for strip in &self.strips[..self.count] {
+            let leaning = strip.lean * end;
+            let (above, below) = (strip.half - leaning, -strip.half - leaning);
+            lean = if above < highest { strip.lean } else { lean };
+            highest = highest.min(above);
+            lowest = lowest.max(below);
         }
-        self.top_below(end, most, below, above)
+        if lean <= 0.0 && highest >= lowest {
+            return Peak { x: highest, y: end, is_top: false };
+        }
+        self.top_below(end, most)
     }
 
-    /// The highest point of a cell that `end` is beyond, where these lines bound it.
-    #[cold]
-    fn top_below(&self, end: f64, most: f64, mut below: Strip, mut above: Strip) -> Peak {
+    /// The highest point of a cell that `end` is beyond.
+    #[inline(never)]
+    fn top_below(&self, end: f64, most: f64) -> Peak {
         let mut y = end;
+        let (mut below, mut above) = self.bounds(y, most);
         // Where no speed at the start leads to such an end it is lowered to one that can be reached.
         for _ in 0..SEARCH_STEPS {
             if above.at(y) >= below.at(y) {

@@ -287,10 +287,10 @@ impl Horizon {
         (pieces, share): (usize, f64),
         moves: [u64; 2],
     ) {
-        let asked = self.slowest(moves);
+        let (scale, asked) = (*self.scale(moves), self.slowest(moves));
         if let Way::Line { along, .. } = way {
-            let cell = Cell::straight(self.scale(moves), number, [from, to], along);
-            return self.push_cell(cell, moves, asked);
+            self.cells.push_back(Cell::straight(&scale, number, [from, to], along));
+            return self.end_cut(moves, asked);
         }
         let step = (to - from) / pieces as f64;
         let mut edges = Edges::new(way, from, step);
@@ -298,16 +298,29 @@ impl Horizon {
         for piece in 1..=pieces {
             let end = if piece == pieces { to } else { from + step * piece as f64 };
             let next = edges.next();
-            let cell = Cell::bent(self.scale(moves), number, [start, end], [&edge, &next], share);
-            self.push_cell(cell, moves, asked);
+            self.cells.push_back(Cell::new(number, [start, end]));
+            if let Some(cell) = self.cells.back_mut() {
+                cell.bend(&scale, [&edge, &next], share);
+            }
+            self.end_cut(moves, asked);
             (start, edge) = (end, next);
         }
     }
 
-    fn push_cell(&mut self, mut cell: Cell, moves: [u64; 2], asked: f64) {
-        cell.moves = moves;
-        cell.set_feed(self.feed_allows(&cell, asked));
-        self.cells.push_back(cell);
+    /// The last cell is of these moves, which ask for this speed.
+    fn end_cut(&mut self, moves: [u64; 2], asked: f64) {
+        if let Some(cell) = self.cells.back_mut() {
+            cell.moves = moves;
+            cell.feed_allows = asked * asked / cell.pace;
+        }
+        if self.overrides.rapid_tells()
+            && let Some(cell) = self.cells.back()
+        {
+            let allows = self.feed_allows(cell, asked);
+            if let Some(cell) = self.cells.back_mut() {
+                cell.set_feed(allows);
+            }
+        }
     }
 
     fn end_move(&mut self, ends: Ends, stops: bool) {
@@ -360,8 +373,7 @@ impl Horizon {
     fn feed_allows(&self, cell: &Cell, asked: f64) -> f64 {
         let mut allows = asked * asked / cell.pace;
         let overrides = &self.overrides;
-        let tells = overrides.rapid != 1.0 || overrides.rapid_limit < f64::INFINITY || overrides.dry_run.is_some();
-        if tells && cell.moves.into_iter().any(|mover| self.is_at_rapid(mover)) {
+        if overrides.rapid_tells() && cell.moves.into_iter().any(|mover| self.is_at_rapid(mover)) {
             let rate = |axis: &AxisLimits| match overrides.dry_run {
                 Some(_) => axis.max_feed,
                 None => overrides.rapid(axis.rapid),

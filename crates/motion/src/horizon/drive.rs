@@ -99,23 +99,21 @@ impl Horizon {
     pub fn drive_move(&mut self, mut leg: impl FnMut(&Way, f64, &Leg)) -> f64 {
         let mut seconds = 0.0;
         while self.begin_cell() {
-            let Some(legs) = self.drive.legs else { break };
-            while self.drive.leg < legs.count {
-                let next = &legs.legs[self.drive.leg];
+            while let Some(next) = self.leg() {
                 let rest = next.seconds - self.drive.spent;
                 let (s, speed) = next.at(self.drive.spent);
                 if let Some((cell, way)) = self.cells.front().and_then(|cell| Some((cell, self.way(cell.way)?))) {
-                    leg(way, cell.axes_allow, &Leg { s, speed, seconds: rest, ..*next });
+                    leg(way, cell.axes_allow, &Leg { s, speed, seconds: rest, ..next });
                 }
                 seconds += rest;
                 self.drive.leg += 1;
                 self.drive.spent = 0.0;
-                if legs.border == Some(self.drive.leg) {
+                if self.is_at_border() {
                     self.drop_move();
                     return seconds;
                 }
             }
-            if legs.end.is_none() || self.end_cell() {
+            if !self.is_to_end() || self.end_cell() {
                 return seconds;
             }
         }
@@ -126,9 +124,8 @@ impl Horizon {
     /// ended.
     pub fn drive_for(&mut self, mut seconds: f64) -> (f64, bool) {
         while self.begin_cell() {
-            let Some(legs) = self.drive.legs else { break };
-            while self.drive.leg < legs.count {
-                let rest = legs.legs[self.drive.leg].seconds - self.drive.spent;
+            while let Some(next) = self.leg() {
+                let rest = next.seconds - self.drive.spent;
                 if rest > seconds {
                     self.drive.spent += seconds;
                     return (0.0, false);
@@ -136,12 +133,12 @@ impl Horizon {
                 seconds -= rest;
                 self.drive.leg += 1;
                 self.drive.spent = 0.0;
-                if legs.border == Some(self.drive.leg) {
+                if self.is_at_border() {
                     self.drop_move();
                     return (seconds, true);
                 }
             }
-            if legs.end.is_none() {
+            if !self.is_to_end() {
                 // Held: the axes stand.
                 return (0.0, false);
             }
@@ -150,6 +147,22 @@ impl Horizon {
             }
         }
         (seconds, false)
+    }
+
+    /// The leg under way; `None` behind the last one of the first cell.
+    fn leg(&self) -> Option<Leg> {
+        let legs = self.drive.legs.as_ref()?;
+        legs.legs[..legs.count].get(self.drive.leg).copied()
+    }
+
+    /// True if a move ends before the leg under way.
+    fn is_at_border(&self) -> bool {
+        self.drive.legs.as_ref().is_some_and(|legs| legs.border == Some(self.drive.leg))
+    }
+
+    /// True if the first cell is driven to its end.
+    fn is_to_end(&self) -> bool {
+        self.drive.legs.as_ref().is_some_and(|legs| legs.end.is_some())
     }
 
     /// Where the axes are now, and how fast; `None` if nothing is under way.
