@@ -220,26 +220,29 @@ impl Cell {
         // What is allowed can be driven all along the cell, so it does not bound its very start; or it cannot.
         let allowed = self.allowed();
         let most = if allowed <= self.axes_allow { f64::MAX } else { allowed };
-        let (mut highest, mut lean, mut lowest) = (most, 0.0, 0.0f64);
+        let (mut highest, mut lowest) = (most, 0.0f64);
+        let mut above = Strip { half: most, lean: 0.0 };
         for strip in &self.strips[..self.count] {
             let leaning = strip.lean * end;
-            let (above, below) = (strip.half - leaning, -strip.half - leaning);
-            lean = if above < highest { strip.lean } else { lean };
-            highest = highest.min(above);
-            lowest = lowest.max(below);
+            let at = strip.half - leaning;
+            let is_lower = at < highest;
+            highest = if is_lower { at } else { highest };
+            above.half = if is_lower { strip.half } else { above.half };
+            above.lean = if is_lower { strip.lean } else { above.lean };
+            lowest = lowest.max(-strip.half - leaning);
         }
-        if lean <= 0.0 && highest >= lowest {
-            return Peak { x: highest, y: end, is_top: false };
+        match highest >= lowest {
+            true if above.lean <= 0.0 => Peak { x: highest, y: end, is_top: false },
+            true => self.top_below(end, most, above),
+            false => self.top_of_reach(end, most),
         }
-        self.top_below(end, most)
     }
 
-    /// The highest point of a cell that `end` is beyond.
+    /// The highest point where no speed at the start leads to such an end: it is lowered to one that can be reached.
     #[inline(never)]
-    fn top_below(&self, end: f64, most: f64) -> Peak {
+    fn top_of_reach(&self, end: f64, most: f64) -> Peak {
         let mut y = end;
         let (mut below, mut above) = self.bounds(y, most);
-        // Where no speed at the start leads to such an end it is lowered to one that can be reached.
         for _ in 0..SEARCH_STEPS {
             if above.at(y) >= below.at(y) {
                 break;
@@ -251,17 +254,23 @@ impl Cell {
             y = met.max(0.0);
             (below, above) = self.bounds(y, most);
         }
+        self.top_below(y, most, above)
+    }
+
+    /// The highest point at no more than a `y` that can be reached, where this line bounds it from above.
+    #[inline(never)]
+    fn top_below(&self, y: f64, most: f64, mut above: Strip) -> Peak {
         // Entering the next cell more slowly may let this one begin faster.
         if above.lean <= 0.0 || y <= 0.0 {
             return Peak { x: above.at(y).max(0.0), y, is_top: true };
         }
-        let mut rising = self.bounds(0.0, most).1;
+        let mut rising = self.above(0.0, most);
         if rising.lean >= 0.0 {
             return Peak { x: rising.at(0.0), y: 0.0, is_top: true };
         }
         for _ in 0..SEARCH_STEPS {
             let met = (above.half - rising.half) / (above.lean - rising.lean);
-            let lowest = self.bounds(met, most).1;
+            let lowest = self.above(met, most);
             if lowest == above || lowest == rising {
                 break;
             }
@@ -273,6 +282,20 @@ impl Cell {
         }
         let met = (above.half - rising.half) / (above.lean - rising.lean);
         Peak { x: above.at(met).max(0.0), y: met, is_top: true }
+    }
+
+    /// The line that bounds `x` from above at `y`, at `most` or less.
+    #[inline]
+    fn above(&self, y: f64, most: f64) -> Strip {
+        let (mut highest, mut above) = (most, Strip { half: most, lean: 0.0 });
+        for strip in &self.strips[..self.count] {
+            let at = strip.at(y);
+            let is_lower = at < highest;
+            highest = if is_lower { at } else { highest };
+            above.half = if is_lower { strip.half } else { above.half };
+            above.lean = if is_lower { strip.lean } else { above.lean };
+        }
+        above
     }
 
     /// The lines that bound `x` from below and above at `y`, above at `most`.

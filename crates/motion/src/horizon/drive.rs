@@ -322,9 +322,11 @@ impl Horizon {
 
     /// Leaves the first cell; true if a move ends with it.
     fn end_cell(&mut self) -> bool {
-        let Some(cell) = self.cells.pop_front() else { return false };
+        let Some(cell) = self.cells.front() else { return false };
+        let (stops, gain, ends) = (cell.stops, cell.gain, cell.ends == Ends::AtEnd);
+        self.cells.pop_front();
         let x = self.drive.legs.take().and_then(|legs| legs.end).unwrap_or(0.0);
-        self.drive.x = if cell.stops { 0.0 } else { x / cell.gain };
+        self.drive.x = if stops { 0.0 } else { x / gain };
         self.settled = self.settled.saturating_sub(1);
         self.looked = self.looked.saturating_sub(1);
         self.goal = self.goal.saturating_sub(1);
@@ -336,7 +338,6 @@ impl Horizon {
         if self.cells.is_empty() && self.open.is_none() {
             self.closed = false;
         }
-        let ends = cell.ends == Ends::AtEnd;
         if ends {
             self.drop_move();
         }
@@ -359,21 +360,24 @@ fn speed_up_bent(cell: &Cell, x: f64, end: f64) -> Legs {
     let (start, length) = (cell.part[0], cell.length());
     let (allowed, peak, leads_to) = (cell.allowed(), cell.peak, cell.leads_to);
     let end = end.min(allowed);
-    let [low, high] = cell.reach(x);
     let mut legs = Legs::default();
     // From a fraction of the cell to another one, at these squared speeds.
+    let per_length = 0.5 / length;
     let mut leg = |[from, to]: [f64; 2], [x, y]: [f64; 2], change: f64| {
-        let way = (to - from) * length;
-        let [first, last] = [x, y].map(|x| x.max(0.0).sqrt());
-        let acceleration = change / (2.0 * length);
-        legs.push(Leg {
-            s: start + from * length,
-            speed: first,
-            acceleration,
-            seconds: 2.0 * way / (first + last),
-            ..Leg::default()
-        });
+        if to > from {
+            let [speed, last] = [x, y].map(|x| x.max(0.0).sqrt());
+            let seconds = 2.0 * (to - from) * length / (speed + last);
+            let (s, acceleration) = (start + from * length, change * per_length);
+            legs.push(Leg { s, speed, acceleration, seconds, ..Leg::default() });
+        }
     };
+    // On the falling line already.
+    if x == peak && leads_to == end && peak <= allowed {
+        leg([0.0, 1.0], [x, end], end - x);
+        legs.end = Some(end);
+        return legs;
+    }
+    let [low, high] = cell.reach(x);
     let is_over = x > peak.min(allowed);
     let met = if is_over { meets_falling(cell, x, low) } else { meets_rising(cell, x, high, end) };
     let Some((met, hard)) = met else {
