@@ -15,8 +15,8 @@ use crate::way::{Way, dot, norm};
 pub enum Corner {
     /// The axes stand in it.
     Stop,
-    /// The ways go over into each other.
-    Passed,
+    /// The ways go over into each other, at this speed at most (mm/s).
+    Passed(f64),
     /// It is rounded, with an arm of this length, mm.
     Rounded(f64),
 }
@@ -26,6 +26,10 @@ const REVERSAL: f64 = -0.866;
 /// The part of an axis' acceleration which a change of direction within one servo period may take and still counts as
 /// none.
 const UNNOTICED: f64 = 2e-4;
+/// By how much the speed asked for may be passed there, by overrides and DRY RUN.
+const FASTER: f64 = 2.0;
+/// The ends of a way are exact to this, mm.
+const ROUNDING: f64 = 2e-12;
 /// By how much longer than needed for the feed an arm is, so that speed can change in it: between lines, and beside arcs.
 const ROOM: f64 = 2.0;
 const ROOM_BESIDE_ARCS: f64 = 3.0;
@@ -39,20 +43,27 @@ const KEPT: f64 = 0.97;
 /// The shortest arm, mm; a corner without room for it is a stop.
 const SHORTEST: f64 = 1e-7;
 
-/// The corner from one way into the next, both driven at no more than `speed` (mm/s).
+/// The corner from one way into the next, both driven at no more than `speed` (mm/s), infinite where only the axes hold
+/// it.
 pub fn corner(limits: &Limits, before: &Way, after: &Way, speed: f64) -> Corner {
     let count = limits.count;
     let (first, second) = (heading(before, before.length()), heading(after, 0.0));
-    let (mut change, mut needed, mut noticed) = (0.0, 0.0f64, false);
+    let speed = [first, second].iter().fold(speed, |speed, along| speed.min(fastest(limits, along)));
+    // Short ways have several corners in one servo period.
+    let shortest = before.length().min(after.length());
+    let (mut change, mut needed, mut passes) = (0.0, 0.0f64, f64::INFINITY);
     for axis in 0..count {
         let turned = (second[axis] - first[axis]).abs();
         let acceleration = limits.axes[axis].acceleration;
         change += turned * turned;
         needed = needed.max(turned / acceleration);
-        noticed |= turned * speed > UNNOTICED * acceleration * limits.servo_period;
+        if turned * shortest > ROUNDING {
+            let unnoticed = UNNOTICED * acceleration / turned;
+            passes = passes.min(unnoticed * limits.servo_period).min((unnoticed * shortest).sqrt());
+        }
     }
-    if !noticed {
-        return Corner::Passed;
+    if speed <= passes {
+        return Corner::Passed(FASTER * passes);
     }
     let change: f64 = f64::sqrt(change);
     if limits.corner_tolerance <= 0.0 || dot(&first, &second, count) < REVERSAL {
@@ -78,6 +89,12 @@ pub fn corner(limits: &Limits, before: &Way, after: &Way, speed: f64) -> Corner 
         arm *= SHORTER;
     }
     Corner::Stop
+}
+
+/// The highest speed in a direction.
+fn fastest(limits: &Limits, along: &Point) -> f64 {
+    let axes = limits.axes.iter().zip(along).take(limits.count);
+    axes.map(|(limit, along)| limit.rapid.max(limit.max_feed) / along.abs()).fold(f64::INFINITY, f64::min)
 }
 
 /// The way round the corner with this arm.

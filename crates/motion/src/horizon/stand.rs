@@ -1,10 +1,7 @@
 //! The axes stand at the end of the first move at whose end they can: what follows it is no longer known.
 
-use super::Horizon;
-use crate::cell::{Cell, Edge, Ends};
-
-/// A speed as little above what can be braked from is rounding.
-const ROUNDING: f64 = 1.0 + 1e-9;
+use super::{Horizon, Open, pace};
+use crate::cell::Ends;
 
 impl Horizon {
     /// Forgets what lies behind the end of the first move at whose end the axes can stand; how many moves are left.
@@ -16,48 +13,82 @@ impl Horizon {
                 continue;
             }
             moves += 1;
-            if self.cells[index].stops || self.can_stand(index) {
-                self.forget_behind(index);
+            if self.stand_at(index) {
+                self.look_from_here();
                 return moves;
             }
         }
         // As far as is known the axes cannot stand before the last move's end: there they always can.
+        let last = usize::from(self.open.is_some());
         self.stop();
-        self.settled = 0;
-        self.look_again();
-        moves + 1
+        self.look_from_here();
+        moves + last
     }
 
-    /// True if the axes can stand where the move ends that ends in this cell.
-    fn can_stand(&self, last: usize) -> bool {
-        let mut most = self.up_to_border(last).most_before(0.0);
-        for cell in self.cells.range(..last).rev() {
-            let end = if cell.stops { 0.0 } else { most * cell.gain };
-            most = cell.most_before(end);
-        }
-        self.speed_squared() <= most * ROUNDING
-    }
-
-    /// The part of a cell up to the end of its move.
-    fn up_to_border(&self, index: usize) -> Cell {
+    /// Makes a stop of the end of the move that ends in this cell; false if the axes are too fast for that, or in the
+    /// corner behind it already: then nothing changes.
+    fn stand_at(&mut self, index: usize) -> bool {
         let cell = &self.cells[index];
-        let (Ends::At(border), Some(way)) = (cell.ends, self.way(cell.way)) else { return *cell };
-        let part = [cell.part[0], border.max(cell.part[0])];
-        let edges = part.map(|s| Edge::new(way, s));
-        let rate = self.rate(cell.moves);
-        let mut part = Cell::bent(&self.limits, cell.way, part, [&edges[0], &edges[1]], rate, cell.share);
-        (part.moves, part.feed_allows) = (cell.moves, cell.feed_allows);
-        part
+        let (way, moves, stops) = (cell.way, cell.moves, cell.stops);
+        if moves[0] != moves[1] {
+            return self.unround(way, moves[0]);
+        }
+        self.cells[index].stops = true;
+        let stands = stops || self.can_stand();
+        self.cells[index].stops = stands;
+        if stands {
+            self.cells.truncate(index + 1);
+            self.forget_behind(way, moves[0]);
+        }
+        stands
     }
 
-    fn forget_behind(&mut self, last: usize) {
-        let mut cell = self.up_to_border(last);
-        (cell.ends, cell.stops) = (Ends::AtEnd, true);
-        self.cells.truncate(last);
-        self.cells.push_back(cell);
-        self.ways.truncate((cell.way + 1).saturating_sub(self.first_way) as usize);
-        self.asked.truncate((cell.moves[1] + 1).saturating_sub(self.first_move) as usize);
+    /// Makes a stop of a rounded corner: the way before it is driven to its end. False if the axes cannot stand there.
+    fn unround(&mut self, blend: u64, before: u64) -> bool {
+        let first = self.cells.iter().position(|cell| cell.way == blend);
+        let (Some(first @ 1..), Some(round)) = (first, self.way(blend)) else { return false };
+        let arm = round.length() / 2.0;
+        let Some(way) = self.way(blend - 1).copied() else { return false };
+        let from = way.length() - arm;
+        let corner = self.cells.split_off(first);
+        let gain = self.cells[first - 1].gain;
+        self.link(pace(&way, from));
+        let end = Open { way, number: blend - 1, mover: before, from, from_rest: false, enters: f64::INFINITY };
+        self.end_at_rest(&end);
+        let stands = self.can_stand();
+        if stands {
+            self.forget_behind(blend - 1, before);
+        } else {
+            self.cells.truncate(first);
+            self.cells[first - 1].gain = gain;
+            self.cells.extend(corner);
+        }
+        stands
+    }
+
+    /// True if the axes can stand at the next stop, if they begin to slow down now.
+    fn can_stand(&self) -> bool {
+        let mut x = self.speed_squared();
+        for cell in &self.cells {
+            if cell.braking(x).is_some() {
+                return true;
+            }
+            if cell.stops {
+                return false;
+            }
+            x = cell.slowest_after(x) / cell.gain;
+        }
+        true
+    }
+
+    /// The last cell, of this way and move, is the last thing known.
+    fn forget_behind(&mut self, way: u64, mover: u64) {
+        self.ways.truncate((way + 1).saturating_sub(self.first_way) as usize);
+        self.asked.truncate((mover + 1).saturating_sub(self.first_move) as usize);
         (self.open, self.closed) = (None, true);
+    }
+
+    fn look_from_here(&mut self) {
         self.settled = 0;
         self.look_again();
     }

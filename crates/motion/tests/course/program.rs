@@ -66,6 +66,8 @@ impl Pen<'_> {
     fn next(&mut self, kind: usize) {
         if self.random.chance(0.2) {
             self.feed = feed(if self.random.chance(0.1) { f64::INFINITY } else { self.random.scaled(1.0, 60_000.0) });
+            self.feed.per_revolution = self.feed.mm_per_min < f64::INFINITY && self.random.chance(0.2);
+            self.feed.tapping = self.feed.mm_per_min < f64::INFINITY && self.random.chance(0.1);
         }
         match kind {
             0 => self.line(false),

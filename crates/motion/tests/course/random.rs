@@ -5,6 +5,14 @@ pub fn samples_asked(default: u64) -> u64 {
     std::env::var("PROGRAMS").map_or(default, |count| count.parse().expect("PROGRAMS is a number"))
 }
 
+/// The numbers of the samples that a test takes: as [`samples_asked`] says, or only those of ONLY=1831,3419.
+pub fn seeds_asked(default: u64) -> Vec<u64> {
+    match std::env::var("ONLY") {
+        Ok(only) => only.split(',').map(|seed| seed.parse().expect("ONLY is a list of numbers")).collect(),
+        Err(_) => (0..samples_asked(default)).collect(),
+    }
+}
+
 pub struct Random(u64);
 
 impl Random {

@@ -9,6 +9,9 @@ use super::program::Program;
 const SLACK: f64 = 1.001;
 /// Where the way bends, the axes may gain so much together while the speed along it falls.
 const ROUND_A_CORNER: f64 = 1.01;
+/// Of what an axis can give this much is all, at one of two looks: the change of speed is the same all along a cell, so
+/// what an axis gives is not, and it is all of it at one place of the cell only, between two looks perhaps.
+const ALL: f64 = 0.9;
 /// Off the end of a stop, mm.
 const AT_END_MM: f64 = 1e-9;
 /// A program that takes more periods than this undisturbed is looked at every so many of them only.
@@ -21,6 +24,8 @@ const PATIENCE: usize = 2000;
 pub enum Act {
     Override(Overrides),
     Hold(bool),
+    /// Stand at the end of the first move at whose end that can be.
+    Stand,
 }
 
 /// How a run went.
@@ -41,10 +46,16 @@ struct Watch<'p> {
     /// The move under way.
     index: usize,
     last_index: usize,
+    /// So many moves have been shown.
+    shown: usize,
+    /// The move at whose end the axes were asked to stand.
+    stands: Option<usize>,
     last: Setpoint,
     /// The last speed, since an override may have taken back the feed; and until where that lasts.
     falling: Option<f64>,
     falling_until: usize,
+    /// The part of what an axis can give that one gave at the last look.
+    hardest: f64,
     run: Run,
     dt: f64,
     period: usize,
@@ -64,14 +75,17 @@ pub fn watch(program: &Program, acts: &[(usize, Act)]) -> Result<Run, String> {
         overrides: Overrides::default(),
         index: 0,
         last_index: 0,
+        shown: 0,
+        stands: None,
         last: start,
         falling: None,
         falling_until: 0,
+        hardest: 0.0,
         run: Run::default(),
         dt,
         period: 0,
     };
-    let (mut shown, mut acts) = (0, acts.iter().peekable());
+    let mut acts = acts.iter().peekable();
     let mut begun = 0.0;
     while watch.index < program.moves.len() {
         while let Some((_, act)) = acts.next_if(|(at, _)| *at == watch.period) {
@@ -79,7 +93,7 @@ pub fn watch(program: &Program, acts: &[(usize, Act)]) -> Result<Run, String> {
         }
         let mut left = dt;
         loop {
-            fill(&mut watch.horizon, &program.moves, &mut shown);
+            fill(&mut watch.horizon, &program.moves, &mut watch.shown);
             let (over, ended) = watch.horizon.drive_for(left);
             if !ended {
                 break;
@@ -146,13 +160,19 @@ impl Watch<'_> {
                 (self.falling, self.falling_until) = (Some(f64::INFINITY), self.index + 3);
             }
             Act::Hold(held) => self.horizon.hold(*held),
+            Act::Stand => {
+                // What follows is shown anew behind the move at whose end they stand.
+                let left = self.horizon.stand_soon();
+                self.shown = self.index + left;
+                self.stands = self.shown.checked_sub(1);
+            }
         }
     }
 
     fn end_of_move(&mut self) -> Result<(), String> {
         let ended = &self.program.moves[self.index];
         self.index += 1;
-        if ended.stops || self.index == self.program.moves.len() {
+        if ended.stops || self.index == self.program.moves.len() || self.stands == Some(self.index - 1) {
             let end = end_of(ended);
             if let Some(setpoint) = self.horizon.setpoint() {
                 let off = apart(&setpoint.position, &end);
@@ -182,7 +202,9 @@ impl Watch<'_> {
         };
         let acceleration = self.horizon.acceleration();
         let around = self.index.saturating_sub(1)..=(self.index + 1).min(last_move);
-        let rapid = around.clone().any(|index| self.program.moves[index].feed.mm_per_min == f64::INFINITY);
+        // In DRY RUN a cut at the rapid rate is one like any other, once it has come down to that.
+        let may_fall = self.falling.is_some() || self.overrides.dry_run.is_none();
+        let rapid = may_fall && around.clone().any(|index| self.program.moves[index].feed.mm_per_min == f64::INFINITY);
         // The direction of a short way is as exact as its ends are.
         let shortest = around.clone().map(|index| self.program.moves[index].way.length()).fold(1.0, f64::min);
         for axis in 0..limits.count {
@@ -215,7 +237,8 @@ impl Watch<'_> {
             let is_over = speed > self.feed(self.index.min(last_move)) * SLACK + 1e-9;
             // Where an axis gives all it can already, the others may gain.
             let hardest = (0..limits.count).map(|axis| acceleration[axis].abs() / limits.axes[axis].acceleration);
-            if is_over && speed > was * ROUND_A_CORNER && hardest.fold(0.0, f64::max) < 0.98 {
+            let hardest = std::mem::replace(&mut self.hardest, hardest.fold(0.0, f64::max)).max(self.hardest);
+            if is_over && speed > was * ROUND_A_CORNER && hardest < ALL {
                 return self.wrong(format!("{speed} mm/s, {was} before, and the feed has been taken back"));
             }
             self.falling = Some(if is_over { speed } else { speed.max(was.min(f64::MAX)) });
