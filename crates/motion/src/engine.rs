@@ -8,10 +8,8 @@ use crate::jerk::JerkHorizon;
 use crate::limits::{Limits, Model};
 use crate::overrides::Overrides;
 use crate::planner::Pace;
+use crate::sampling::sample_evenly;
 use crate::way::Way;
-
-/// Setpoints that are kept of one spell of the old controls' motion.
-const KEPT_OF_A_SPELL: u32 = 64;
 
 /// A planner of one of the models.
 #[derive(Clone, Debug)]
@@ -203,14 +201,14 @@ fn drive_on_the_way(horizon: &mut Horizon, kept: Option<&mut Kept>) -> (f64, Pac
         if !matches!(way, Way::Blend { .. }) {
             allowed = allowed.min(axes_allow.sqrt() as f32);
         }
-        notes.take(way, leg);
+        notes.take(way, leg, axes_allow.sqrt());
     });
     (seconds, Pace { allowed: allowed.min(asked as f32), ..notes.pace.unwrap_or_default() })
 }
 
 fn drive_smoothly(horizon: &mut JerkHorizon, asked: f64, kept: Option<&mut Kept>) -> (f64, Pace) {
     let mut notes = Notes { pace: None, asked, kept };
-    let seconds = horizon.drive_move(|way, leg| notes.take(way, leg));
+    let seconds = horizon.drive_move(|way, leg| notes.take(way, leg, f64::INFINITY));
     (seconds, Pace { allowed: asked as f32, ..notes.pace.unwrap_or_default() })
 }
 
@@ -222,13 +220,13 @@ struct Notes<'k> {
 }
 
 impl Notes<'_> {
-    fn take(&mut self, way: &Way, leg: &Leg) {
+    fn take(&mut self, way: &Way, leg: &Leg, allowed: f64) {
         let (speed, end) = (leg.speed as f32, leg.at(leg.seconds).1 as f32);
         let pace = self.pace.get_or_insert(Pace { asked: self.asked, start: speed, ..Pace::default() });
         pace.top = pace.top.max(speed).max(end);
         pace.end = end;
         if let Some(kept) = &mut self.kept {
-            kept.stretches.push(crate::Stretch { way: *way, leg: *leg });
+            kept.stretches.push(crate::Stretch { way: *way, leg: *leg, allowed });
         }
     }
 }
@@ -239,10 +237,8 @@ fn drive_beside_it(classic: &mut Interpolator, asked: f64, mut kept: Option<&mut
     let seconds = classic.drive_move(|spell| {
         pace.top = pace.top.max(spell.speed as f32);
         if let Some(kept) = &mut kept {
-            for part in 0..=KEPT_OF_A_SPELL {
-                let at = spell.seconds * f64::from(part) / f64::from(KEPT_OF_A_SPELL);
-                kept.samples.push(Sample { seconds: before + at, setpoint: spell.at(at) });
-            }
+            let keep = |at, setpoint| kept.samples.push(Sample { seconds: before + at, setpoint });
+            sample_evenly(spell.seconds, |at| spell.at(at), keep);
         }
         before += spell.seconds;
     });
