@@ -2,6 +2,7 @@
 //!
 //! As the path itself, each is kept in bounded memory however much comes in.
 
+use crate::deviation::{Deviation, Farthest};
 use crate::extent::Extent;
 use crate::kept::{Drawn, KeptPath};
 use crate::piece::Piece;
@@ -18,6 +19,10 @@ pub enum Layer {
     Compensated,
     /// The tool, and the area that it sweeps.
     Tool,
+    /// The path that runs, coloured by its real speed.
+    Speed,
+    /// The path that the axes drive, beside the programmed one.
+    Actual,
 }
 
 /// More refused ways than this are not drawn.
@@ -58,6 +63,8 @@ impl Whole {
 pub(crate) struct Layers {
     shown: Vec<Layer>,
     programmed: Whole,
+    driven: Whole,
+    deviation: Deviation,
     /// What the tool sweeps; its radius in mm stands where a path has its feed.
     swept: Whole,
     places: ToolPlaces,
@@ -71,7 +78,13 @@ pub(crate) struct DrawnLayers<'l> {
     pub path: bool,
     /// A layer beside it is drawn too: the path needs its name.
     pub is_named: bool,
+    /// The path is coloured by real speed.
+    pub by_speed: bool,
     pub programmed: Vec<Piece>,
+    pub driven: Vec<Piece>,
+    /// How many times the driven path's deviation is drawn, and where it is largest.
+    pub exaggeration: f64,
+    pub farthest: Option<Farthest>,
     pub swept: Vec<Piece>,
     /// The radii of the tool, if there are few.
     pub radii: Vec<f64>,
@@ -87,6 +100,8 @@ impl Layers {
         Layers {
             shown: vec![Layer::Compensated],
             programmed: Whole::new(),
+            driven: Whole::new(),
+            deviation: Deviation::new(1.0),
             swept: Whole::new(),
             places: ToolPlaces::default(),
             refused: Vec::new(),
@@ -97,6 +112,39 @@ impl Layers {
     /// Only these are drawn.
     pub fn show(&mut self, layers: &[Layer]) {
         self.shown = layers.to_vec();
+    }
+
+    /// Deviations of the driven path are drawn so many times as large.
+    pub fn exaggerate(&mut self, times: f64) {
+        self.deviation = Deviation::new(times);
+    }
+
+    /// The way that the axes are to drive next.
+    pub fn ordered(&mut self, piece: &Piece) {
+        if self.shows(Layer::Actual) && piece.kind == Kind::Feed {
+            self.deviation.order(piece);
+        }
+    }
+
+    /// The axes have driven to a place; from one that was left alone if it does not go on from where they were.
+    pub fn driven(&mut self, kind: Kind, points: &[[f64; 3]]) {
+        if !self.shows(Layer::Actual) {
+            return;
+        }
+        let Layers { driven, deviation, .. } = self;
+        let piece = |from, to| Piece { kind, from, to, arc: None, feed: 0.0 };
+        if kind == Kind::Feed {
+            deviation.drive(points, |from, to| driven.push(&piece(from, to)));
+        } else {
+            deviation.leave(|from, to| driven.push(&Piece { kind: Kind::Feed, ..piece(from, to) }));
+            points.windows(2).for_each(|pair| driven.push(&piece(pair[0], pair[1])));
+        }
+    }
+
+    /// Nothing more is driven.
+    pub fn finish(&mut self) {
+        let Layers { driven, deviation, .. } = self;
+        deviation.leave(|from, to| driven.push(&Piece { kind: Kind::Feed, from, to, arc: None, feed: 0.0 }));
     }
 
     /// A programmed way.
@@ -138,9 +186,13 @@ impl Layers {
     pub fn drawn(&self) -> DrawnLayers<'_> {
         let programmed = self.programmed.drawn().pieces;
         DrawnLayers {
-            path: self.shows(Layer::Compensated),
-            is_named: self.shown != [Layer::Compensated] || !programmed.is_empty(),
+            path: self.shows(Layer::Compensated) || self.shows(Layer::Speed),
+            is_named: self.shown != [Layer::Compensated] && !self.shows(Layer::Speed) || !programmed.is_empty(),
+            by_speed: self.shows(Layer::Speed),
             programmed,
+            driven: self.driven.drawn().pieces,
+            exaggeration: self.deviation.times,
+            farthest: self.deviation.farthest,
             swept: self.swept.drawn().pieces,
             radii: self.swept.survey.feeds.named().to_vec(),
             places: &self.places,
@@ -149,7 +201,7 @@ impl Layers {
         }
     }
 
-    fn shows(&self, layer: Layer) -> bool {
+    pub fn shows(&self, layer: Layer) -> bool {
         self.shown.contains(&layer)
     }
 }
@@ -162,7 +214,7 @@ impl DrawnLayers<'_> {
                 frame.include([point[0] + side, point[1] + side, point[2]]);
             }
         };
-        let ways = self.programmed.iter().chain(self.refused.iter().map(|refused| &refused.way));
+        let ways = self.programmed.iter().chain(&self.driven).chain(self.refused.iter().map(|refused| &refused.way));
         for (piece, radius) in ways.map(|piece| (piece, 0.0)).chain(self.swept.iter().map(|piece| (piece, piece.feed)))
         {
             if piece.kind == Kind::Feed {

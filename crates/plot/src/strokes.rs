@@ -8,7 +8,7 @@ use crate::clip::Clipped;
 use crate::colour::{PAPER, RAPID, hex};
 use crate::dash::dash;
 use crate::hole::DownCut;
-use crate::ink::Ink;
+use crate::ink::{FEED_WEIGHT, Ink};
 use crate::label::Places;
 use crate::palette::Palette;
 use crate::path_data::PathData;
@@ -51,9 +51,12 @@ pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], p
             draw_feed(path, view, piece, tolerance_mm);
         }
     }
-    let width = short(ink.feed_weight);
-    // Where the colour changes along a line, round ends would lie over each other as dots.
-    let ends = if matches!(palette, Palette::Few(_)) { "round" } else { "butt" };
+    // Colours along a line are told apart where it is wide; where lines are dense there is no room for that.
+    let wider = if matches!(palette, Palette::Speed { .. }) { 1.0 + ink.feed_weight / FEED_WEIGHT } else { 1.0 };
+    let width = short(ink.feed_weight * wider);
+    // Where the colour changes in steps along a line, round ends would lie over each other as dots; speeds go over into
+    // each other, and hairlines of paper would be seen between them.
+    let ends = if !matches!(palette, Palette::Scale { .. }) { "round" } else { "butt" };
     canvas.open(&format!("stroke-width=\"{width}\" stroke-linecap=\"{ends}\" stroke-linejoin=\"round\""));
     // The slow feeds lie on top: they are few, and dark.
     for (shade, path) in paths.into_iter().enumerate().rev() {
@@ -111,7 +114,8 @@ pub(crate) fn chord_tolerance(view: &View, pieces: &[Piece]) -> f64 {
     tolerance_mm
 }
 
-fn draw_rapids(canvas: &mut Canvas, view: &View, pieces: &[Piece], ink: &Ink) {
+/// Draws the rapids, those on the same line once.
+pub(crate) fn draw_rapids(canvas: &mut Canvas, view: &View, pieces: &[Piece], ink: &Ink) {
     let mut lines = Vec::new();
     let mut drawn = BTreeSet::new();
     let mut arrows = Arrows::default();
