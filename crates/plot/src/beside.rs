@@ -7,7 +7,7 @@ use crate::layers::DrawnLayers;
 use crate::path_data::PathData;
 use crate::piece::Piece;
 use crate::stroke::Kind;
-use crate::strokes::{chord_tolerance, draw_feed, draw_rapids};
+use crate::strokes::{chord_tolerance, draw_feed, draw_rapids, seen};
 use crate::view::View;
 
 /// The weights of the contour, of the driven path, of the tool and of a refused way, in sheet units.
@@ -95,7 +95,7 @@ pub(crate) fn draw_refused(canvas: &mut Canvas, view: &View, layers: &DrawnLayer
 }
 
 fn draw_ways<'p>(canvas: &mut Canvas, view: &View, ways: impl Iterator<Item = &'p Piece>) {
-    let ways: Vec<Piece> = ways.copied().collect();
+    let ways = seen(view, ways);
     let mut path = PathData::default();
     let tolerance_mm = chord_tolerance(view, &ways);
     for way in &ways {

@@ -35,8 +35,8 @@ pub struct Chart {
     /// The feed that is commanded, and what the axes' limits leave of it where that is less; mm/min.
     pub(crate) commanded: Spans<f64>,
     pub(crate) allowed: Spans<f64>,
-    /// The line of each block; `None` of several.
-    pub(crate) blocks: Spans<Option<u64>>,
+    /// The line of each block; of several, the first one's.
+    pub(crate) blocks: Spans<u64>,
     /// The end of what has come in, s, and what of it was spent in cuts and in rapids.
     pub(crate) seconds: f64,
     pub(crate) cutting_s: f64,
@@ -67,7 +67,7 @@ impl Chart {
 
     /// Up to this time, s, a block of this line is executed.
     pub fn block(&mut self, line: u64, until: f64) {
-        self.blocks.push([self.blocks.end(), until], Some(line), |one, other| if one == other { *one } else { None });
+        self.blocks.push([self.blocks.end(), until], line, |first, _| *first);
         self.seconds = self.seconds.max(until);
     }
 
@@ -75,7 +75,7 @@ impl Chart {
     pub fn begin(&mut self, kind: Kind, [from, to]: [f64; 2]) {
         *if kind == Kind::Rapid { &mut self.rapid_s } else { &mut self.cutting_s } += to - from;
         let end = self.cutting.end();
-        if end < from {
+        if end + NO_TIME < from {
             // The axes have stood.
             for trace in self.traces() {
                 trace.push(end, 0.0);
@@ -118,5 +118,7 @@ impl Chart {
     }
 }
 
+/// Moves that are no farther apart than this follow each other, s: times are sums.
+const NO_TIME: f64 = 1e-7;
 /// What is above this part of a feed is the same.
 const HARDLY_LESS: f64 = 0.999;

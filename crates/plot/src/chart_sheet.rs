@@ -26,8 +26,8 @@ const NUMBER: f64 = 15.0;
 const NAME: f64 = 16.0;
 /// Numbers stand at least so far apart, along time and upwards.
 const APART: [f64; 2] = [84.0, 34.0];
-/// Borders of blocks closer than this are not drawn.
-const CLOSEST_BORDERS: f64 = 4.0;
+/// The borders of more blocks are not drawn: there would be nothing else.
+const MOST_BLOCKS: usize = 120;
 /// The legend's rows, and the line before a text.
 const LEGEND_ROW: f64 = 28.0;
 const SAMPLE: f64 = 36.0;
@@ -158,7 +158,7 @@ fn draw_frame(canvas: &mut Canvas, panel: &Panel, [name, unit]: [&str; 2]) {
 /// The grid of time through all panels, and its numbers below the last.
 fn draw_time_grid(canvas: &mut Canvas, speed: &Panel, bottom: f64) {
     let rect = &speed.rect;
-    let ticks = Step::at_least(speed.seconds * APART[0] / rect.width).ticks(0.0, speed.seconds);
+    let ticks = time_ticks(speed);
     canvas.open(&format!("stroke=\"{GRID}\" stroke-width=\"1\""));
     for tick in &ticks {
         canvas.line([speed.x(*tick), rect.y], [speed.x(*tick), bottom + 6.0]);
@@ -176,21 +176,18 @@ fn draw_blocks(canvas: &mut Canvas, chart: &Chart, speed: &Panel, bottom: f64) {
     let middle = BLOCKS_TOP + 0.5 * BLOCKS_HEIGHT;
     let name = Label::new("line", [MARGIN, middle], NAME, Anchor::Start).centred();
     canvas.text(&name, INK);
-    let mut last = f64::NEG_INFINITY;
+    if chart.blocks.iter().count() > MOST_BLOCKS {
+        return draw_lines_at(canvas, chart, speed, middle);
+    }
     let mut borders = PathData::default();
     for ([from, _], _) in chart.blocks.iter().skip(1) {
-        let x = speed.x(from);
-        if x - last >= CLOSEST_BORDERS {
-            borders.line([x, BLOCKS_TOP + 4.0], [x, bottom]);
-            last = x;
-        }
+        borders.line([speed.x(from), BLOCKS_TOP + 4.0], [speed.x(from), bottom]);
     }
     for d in borders.finish() {
         canvas.path(&d, &format!("stroke=\"{AXIS}\" stroke-width=\"0.8\" stroke-dasharray=\"1 3\""));
     }
     let mut places = Places::default();
     for ([from, to], line) in chart.blocks.iter() {
-        let Some(line) = line else { continue };
         let label =
             Label::new(line.to_string(), [speed.x((from + to) / 2.0), middle], NUMBER, Anchor::Middle).centred();
         let room = speed.x(to) - speed.x(from);
@@ -198,6 +195,24 @@ fn draw_blocks(canvas: &mut Canvas, chart: &Chart, speed: &Panel, bottom: f64) {
             canvas.text(&label, SOFT_INK);
         }
     }
+}
+
+/// Of many blocks, the lines of those at the times that have a number.
+fn draw_lines_at(canvas: &mut Canvas, chart: &Chart, speed: &Panel, middle: f64) {
+    let mut blocks = chart.blocks.iter().peekable();
+    let mut places = Places::default();
+    for tick in time_ticks(speed) {
+        while blocks.next_if(|([_, to], _)| *to <= tick).is_some() {}
+        let Some((_, line)) = blocks.peek() else { return };
+        let label = Label::new(line.to_string(), [speed.x(tick), middle], NUMBER, Anchor::Middle).centred();
+        if places.try_take(&label) {
+            canvas.text(&label, SOFT_INK);
+        }
+    }
+}
+
+fn time_ticks(speed: &Panel) -> Vec<f64> {
+    Step::at_least(speed.seconds * APART[0] / speed.rect.width).ticks(0.0, speed.seconds)
 }
 
 fn draw_trace(canvas: &mut Canvas, panel: &Panel, trace: &Trace, (colour, weight, _): Line) {

@@ -33,8 +33,9 @@ const NOTHING: f64 = 5e-7;
 pub(crate) struct Farthest {
     /// mm.
     pub by: f64,
-    /// Where the axes were.
+    /// Where the axes were, and where they should have been.
     pub at: [f64; 3],
+    pub foot: [f64; 3],
 }
 
 /// A way that was ordered.
@@ -116,7 +117,7 @@ impl Deviation {
             }
             let place = self.place(*point);
             if place.off > self.farthest.map_or(NOTHING, |farthest| farthest.by) {
-                self.farthest = Some(Farthest { by: place.off, at: *point });
+                self.farthest = Some(Farthest { by: place.off, at: *point, foot: place.foot_at });
             }
             self.places.push(place);
         }

@@ -85,6 +85,8 @@ pub(crate) struct DrawnLayers<'l> {
     /// How many times the driven path's deviation is drawn, and where it is largest.
     pub exaggeration: f64,
     pub farthest: Option<Farthest>,
+    /// How far from their place the programmed and the driven path may be drawn, mm.
+    pub error_mm: f64,
     pub swept: Vec<Piece>,
     /// The radii of the tool, if there are few.
     pub radii: Vec<f64>,
@@ -184,15 +186,18 @@ impl Layers {
 
     /// What is to be drawn.
     pub fn drawn(&self) -> DrawnLayers<'_> {
-        let programmed = self.programmed.drawn().pieces;
+        let (programmed, driven) = (self.programmed.drawn(), self.driven.drawn());
+        let error_mm = programmed.error_mm.max(driven.error_mm);
+        let programmed = programmed.pieces;
         DrawnLayers {
             path: self.shows(Layer::Compensated) || self.shows(Layer::Speed),
             is_named: self.shown != [Layer::Compensated] && !self.shows(Layer::Speed) || !programmed.is_empty(),
             by_speed: self.shows(Layer::Speed),
             programmed,
-            driven: self.driven.drawn().pieces,
+            driven: driven.pieces,
             exaggeration: self.deviation.times,
             farthest: self.deviation.farthest,
+            error_mm,
             swept: self.swept.drawn().pieces,
             radii: self.swept.survey.feeds.named().to_vec(),
             places: &self.places,

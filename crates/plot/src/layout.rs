@@ -33,6 +33,10 @@ const VIEWS_HEIGHT: [f64; 2] = [430.0, 850.0];
 /// The same of a plan alone.
 const PLAN_HEIGHT: [f64; 2] = [260.0, 680.0];
 
+/// A plan beside a detail has this part of the width, and both are at least so high.
+const PLAN_BESIDE_DETAIL: f64 = 0.54;
+const DETAIL_HEIGHT: f64 = 520.0;
+
 /// The least room for a panel.
 const LEAST_PANEL: f64 = 130.0;
 
@@ -77,6 +81,17 @@ pub(crate) fn plan_layout(plan: [f64; 2], inset: [f64; 4]) -> Layout {
     let (_, height) = fitted(plan, width, PLAN_HEIGHT[1], inset);
     let plan = Rect { x: MARGIN + PLAN_LABELS[0], y: VIEWS_TOP, width, height: height.max(PLAN_HEIGHT[0]) };
     Layout { width: PLAN_WIDTH, plan, isometric: None, views_bottom: plan.bottom() + PLAN_LABELS[1] }
+}
+
+/// The layout of a plan of this size with a detail beside it, and the detail's panel.
+pub(crate) fn detail_layout(plan: [f64; 2]) -> (Layout, Rect) {
+    let room = SHEET_WIDTH - 2.0 * MARGIN - 2.0 * PLAN_LABELS[0] - BETWEEN;
+    let width = room * PLAN_BESIDE_DETAIL;
+    let (_, height) = fitted(plan, width, VIEWS_HEIGHT[1] - PLAN_LABELS[1], PLAN_INSET);
+    let plan = Rect { x: MARGIN + PLAN_LABELS[0], y: VIEWS_TOP, width, height: height.max(DETAIL_HEIGHT) };
+    let x = plan.right() + BETWEEN + PLAN_LABELS[0];
+    let detail = Rect { x, width: SHEET_WIDTH - MARGIN - x, ..plan };
+    (Layout { width: SHEET_WIDTH, plan, isometric: None, views_bottom: plan.bottom() + PLAN_LABELS[1] }, detail)
 }
 
 /// The scale at which a picture fits a panel, and the panel's height that it needs then.

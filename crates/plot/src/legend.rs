@@ -3,12 +3,13 @@
 use crate::beside::{CONTOUR_WEIGHT, DRIVEN_WEIGHT, REFUSED_TOOL, REFUSED_WEIGHT, TOOL_WEIGHT};
 use crate::canvas::Canvas;
 use crate::colour::{ALARM, AXIS, CONTOUR, DRIVEN, INK, RAPID, SWEPT, TOOL, hex};
+use crate::detail::CIRCLED;
 use crate::label::{Anchor, Label};
 use crate::layout::MARGIN;
 use crate::mark::MarkKind;
 use crate::palette::Palette;
 use crate::rect::Rect;
-use crate::scale::{Step, written, written_range};
+use crate::scale::{Step, written, written_deviation, written_range};
 use crate::sign::{draw_sign, hole_path};
 use crate::text::width;
 
@@ -32,6 +33,8 @@ pub(crate) enum Entry {
     Programmed,
     /// The path that is driven, and how many times its deviation is drawn.
     Driven(f64),
+    /// The circle round the largest deviation: how many mm that is, and how many times it is drawn beside the plan.
+    Circled(f64, f64),
     /// The tool, with its radii in mm if there are few.
     Tool(Vec<f64>),
     /// The area that the tool sweeps.
@@ -63,6 +66,9 @@ impl Entry {
                 format!("driven path, its deviation drawn {} times as large", written(*times))
             }
             Entry::Driven(_) => "driven path".to_owned(),
+            Entry::Circled(by, times) => {
+                format!("largest deviation, {} mm, at the right {} times as large", written_deviation(*by), written(*times))
+            }
             Entry::Speed(_) => "real speed, mm/min".to_owned(),
             Entry::Tool(radii) => tool_text(radii),
             Entry::Swept => "swept by the tool".to_owned(),
@@ -82,7 +88,7 @@ impl Entry {
         match self {
             Entry::Contour | Entry::Programmed | Entry::Driven(_) => LINE_SAMPLE,
             Entry::Swept | Entry::Refused | Entry::Rapid | Entry::Feed(..) => LINE_SAMPLE,
-            Entry::Tool(_) | Entry::Hole | Entry::Sign(_) => SIGN_SAMPLE,
+            Entry::Tool(_) | Entry::Circled(..) | Entry::Hole | Entry::Sign(_) => SIGN_SAMPLE,
             Entry::Path | Entry::Scale(..) | Entry::Speed(_) => 0.0,
         }
     }
@@ -156,6 +162,11 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Pa
         Entry::Swept => {
             let part = Rect { x, y: y - 7.0, width: LINE_SAMPLE, height: 14.0 };
             canvas.rect(&part, &format!("rx=\"7\" fill=\"{SWEPT}\""));
+        }
+        Entry::Circled(..) => {
+            canvas.open(&format!("stroke=\"{INK}\" {CIRCLED}"));
+            canvas.circle(middle, 8.0);
+            canvas.close();
         }
         Entry::Tool(_) => {
             canvas.open(&format!("stroke=\"{TOOL}\" stroke-width=\"{TOOL_WEIGHT}\""));

@@ -15,6 +15,7 @@ mod clip;
 mod colour;
 mod cover;
 mod dash;
+mod detail;
 mod deviation;
 mod drawing;
 mod extent;

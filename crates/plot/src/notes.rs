@@ -1,7 +1,8 @@
 //! What the picture cannot show, said in words below it.
 
+use crate::detail::{SEEN, SEEN_WELL, WINDOW};
 use crate::extent::Extent;
-use crate::scale::{Step, written, written_range};
+use crate::scale::{Step, written, written_deviation, written_range};
 use crate::sheet::{Content, Views, written_point};
 use crate::stroke::Kind;
 
@@ -10,13 +11,6 @@ const MOST_PLACES: usize = 3;
 
 /// So many marks outside the picture are named one by one.
 const MOST_MARKS: usize = 8;
-
-/// A deviation of fewer sheet units is not seen beside the lines' own width; of so many it is seen well.
-const SEEN: f64 = 2.0;
-const SEEN_WELL: f64 = 8.0;
-
-/// A window in which it is seen well is so many times as wide.
-const WINDOW: f64 = 20.0;
 
 /// The notes, one a line.
 pub(crate) fn notes(content: &Content, views: &Views) -> Vec<String> {
@@ -42,14 +36,14 @@ fn deviation(content: &Content, views: &Views) -> Vec<String> {
         return Vec::new();
     }
     let Some(farthest) = layers.farthest else {
-        return vec!["The axes drive the programmed path itself.".to_owned()];
+        return vec!["The axes drive the commanded path itself.".to_owned()];
     };
     let by = written_deviation(farthest.by);
     let mut note =
-        format!("The driven path is at most {by} mm from the programmed one, at {}.", written_point(farthest.at));
+        format!("The driven path is at most {by} mm from the commanded one, at {}.", written_point(farthest.at));
     let mut hint = None;
     let seen = farthest.by * views.plan.scale * layers.exaggeration;
-    if seen < SEEN {
+    if seen < SEEN && views.detail.is_none() {
         let times = Step::at_least(SEEN_WELL / (farthest.by * views.plan.scale)).times(1.0);
         let window = Step::at_least(farthest.by * WINDOW).times(1.0);
         let [x, y] = [farthest.at[0], farthest.at[1]].map(|at| format!("{at:.3}"));
@@ -57,12 +51,6 @@ fn deviation(content: &Content, views: &Views) -> Vec<String> {
         hint = Some(format!("Seen with --around {x},{y},{window}, or drawn larger with --exaggerate {times}."));
     }
     [note].into_iter().chain(hint).collect()
-}
-
-/// A length with three figures.
-fn written_deviation(by: f64) -> String {
-    let decimals = (2 - libm::log10(by).floor() as i32).clamp(0, 6) as usize;
-    format!("{by:.decimals$}")
 }
 
 /// Where rapids go that leave a view.

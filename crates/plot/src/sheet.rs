@@ -3,6 +3,7 @@
 use crate::beside::{draw_contour, draw_driven, draw_refused, draw_swept, draw_tool};
 use crate::canvas::Canvas;
 use crate::colour::{GRID, INK, PAPER, SOFT_INK};
+use crate::detail::Detail;
 use crate::drawing::Title;
 use crate::extent::Extent;
 use crate::frame::frame;
@@ -63,9 +64,15 @@ pub(crate) fn sheet(content: &Content) -> String {
         Look::Both => layout(size(Projection::Plan), size(Projection::Isometric)),
         Look::Plan | Look::Around(..) => plan_layout(size(Projection::Plan), inset),
     };
+    let plan = View::fit(Projection::Plan, &frame, layout.plan, inset);
+    let detail = (content.look == Look::Both)
+        .then(|| Detail::of(&content.layers, plan.scale, size(Projection::Plan)))
+        .flatten();
+    let (layout, detail) = detail.map_or((layout, None), |(layout, detail)| (layout, Some(detail)));
     let views = Views {
         plan: View::fit(Projection::Plan, &frame, layout.plan, inset),
         isometric: layout.isometric.map(|panel| View::fit(Projection::Isometric, &frame, panel, ISOMETRIC_INSET)),
+        detail,
     };
     let legend = Legend::new(entries(content, &views, &palette, &cuts), layout.width);
     let notes = notes(content, &views);
@@ -77,10 +84,19 @@ pub(crate) fn sheet(content: &Content) -> String {
     canvas.title(&content.title.program);
     canvas.rect(&Rect { x: 0.0, y: 0.0, width: layout.width, height }, &format!("fill=\"{PAPER}\""));
     draw_header(&mut canvas, content.title, &facts(content.survey), layout.width);
-    draw_headings(&mut canvas, &layout);
-    draw_plan(&mut canvas, &views.plan, content, &palette, &cuts);
+    draw_headings(&mut canvas, &layout, views.detail.as_ref());
+    // A whole frame holds all that cuts; a window does not.
+    let is_window = matches!(content.look, Look::Around(..));
+    draw_plan(&mut canvas, &views.plan, content, (&palette, &cuts), is_window);
     if let Some(view) = &views.isometric {
         draw_isometric(&mut canvas, view, content, &palette, &frame);
+    }
+    if let Some(detail) = &views.detail {
+        detail.circle(&mut canvas, &views.plan);
+        match detail.view.projection {
+            Projection::Plan => draw_plan(&mut canvas, &detail.view, content, (&palette, &cuts), true),
+            Projection::Isometric => draw_isometric(&mut canvas, &detail.view, content, &palette, &detail.frame),
+        }
     }
     legend.draw(&mut canvas, legend_top, &palette);
     for (row, note) in notes.iter().enumerate() {
@@ -95,6 +111,8 @@ pub(crate) fn sheet(content: &Content) -> String {
 pub(crate) struct Views {
     pub plan: View,
     pub isometric: Option<View>,
+    /// Where the driven path is farthest off, instead of the isometric view.
+    pub detail: Option<Detail>,
 }
 
 impl Views {
@@ -152,22 +170,29 @@ fn facts(survey: &Survey) -> String {
     parts.join("   \u{b7}   ")
 }
 
-fn draw_headings(canvas: &mut Canvas, layout: &Layout) {
-    for (panel, text) in [(Some(layout.plan), "Plan"), (layout.isometric, "Isometric")] {
+fn draw_headings(canvas: &mut Canvas, layout: &Layout, detail: Option<&Detail>) {
+    let detail = detail.map(|detail| detail.view.panel);
+    for (panel, text) in
+        [(Some(layout.plan), "Plan"), (layout.isometric, "Isometric"), (detail, "In the circle")]
+    {
         let Some(panel) = panel else { continue };
         canvas.text(&Label::new(text, [panel.middle()[0], panel.y - 13.0], HEADING_SIZE, Anchor::Middle), INK);
     }
 }
 
-fn draw_plan(canvas: &mut Canvas, view: &View, content: &Content, palette: &Palette, cuts: &[DownCut]) {
+fn draw_plan(
+    canvas: &mut Canvas,
+    view: &View,
+    content: &Content,
+    (palette, cuts): (&Palette, &[DownCut]),
+    is_window: bool,
+) {
     let mut places = Places::default();
     draw_swept(canvas, view, &content.layers);
     draw_plan_grid(canvas, view);
     let ink = Ink::measure(view, &content.drawn.pieces);
     draw_tool(canvas, view, &content.layers);
     if content.layers.path {
-        // A whole frame holds all that cuts; a window does not.
-        let is_window = matches!(content.look, Look::Around(..));
         if is_window {
             canvas.open_clipped(&view.panel, "");
         }
@@ -207,6 +232,9 @@ fn entries(content: &Content, views: &Views, palette: &Palette, cuts: &[DownCut]
     }
     if !layers.driven.is_empty() {
         entries.push(Entry::Driven(layers.exaggeration));
+    }
+    if let (Some(detail), Some(farthest)) = (&views.detail, layers.farthest) {
+        entries.push(Entry::Circled(farthest.by, detail.times(&views.plan)));
     }
     if !layers.swept.is_empty() {
         entries.push(Entry::Tool(layers.radii.clone()));

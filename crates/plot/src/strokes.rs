@@ -44,7 +44,8 @@ const PLUNGE: f64 = 1.9;
 /// Draws the path.
 pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], palette: &Palette, ink: &Ink) {
     draw_rapids(canvas, view, pieces, ink);
-    let tolerance_mm = chord_tolerance(view, pieces);
+    let pieces = seen(view, pieces.iter());
+    let tolerance_mm = chord_tolerance(view, &pieces);
     let mut paths = vec![PathData::default(); palette.shades()];
     for piece in pieces.iter().filter(|piece| piece.kind == Kind::Feed) {
         if let Some(path) = paths.get_mut(palette.shade(piece.feed)) {
@@ -70,8 +71,20 @@ pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], p
     canvas.close();
 }
 
+/// The pieces of which a view may show a part.
+pub(crate) fn seen<'p>(view: &View, pieces: impl Iterator<Item = &'p Piece>) -> Vec<Piece> {
+    pieces.filter(|piece| view.may_show(&piece.extent())).copied().collect()
+}
+
 /// Adds a solid piece to a path.
 pub(crate) fn draw_feed(path: &mut PathData, view: &View, piece: &Piece, tolerance_mm: f64) {
+    if view.is_window_on(&piece.extent()) {
+        return piece.for_each_line(tolerance_mm, |from, to| {
+            if let Some(part) = view.line(from, to) {
+                path.line(part.from, part.to);
+            }
+        });
+    }
     match piece.curve().filter(|curve| is_ellipse(view, curve)) {
         Some(curve) => draw_ellipse(path, view, piece, &curve),
         None => piece.for_each_line(tolerance_mm, |from, to| path.line(view.place(from), view.place(to))),
@@ -83,6 +96,11 @@ fn is_ellipse(view: &View, curve: &Curve) -> bool {
     let hardly_mm = HARDLY / view.scale;
     let flat = view.projection == Projection::Plan || curve.is_flat();
     flat && curve.is_round_in_plan(hardly_mm) && curve.bend_mm() > hardly_mm
+}
+
+/// The curve of an arc that is drawn as chords.
+fn flattened(view: &View, piece: &Piece) -> Option<Curve> {
+    piece.curve().filter(|curve| view.is_window_on(&piece.extent()) || !is_ellipse(view, curve))
 }
 
 /// Draws an arc in the XY plane exactly; of several turns on top of each other, one.
@@ -103,7 +121,7 @@ fn draw_ellipse(path: &mut PathData, view: &View, piece: &Piece, curve: &Curve) 
 pub(crate) fn chord_tolerance(view: &View, pieces: &[Piece]) -> f64 {
     let mut tolerance_mm = CHORD / view.scale;
     let flattened: Vec<Curve> =
-        pieces.iter().filter_map(Piece::curve).filter(|curve| !is_ellipse(view, curve)).collect();
+        pieces.iter().filter(|piece| piece.arc.is_some()).filter_map(|piece| flattened(view, piece)).collect();
     for _ in 0..8 {
         let chords: usize = flattened.iter().map(|curve| curve.steps(tolerance_mm)).sum();
         if chords <= MOST_CHORDS {
