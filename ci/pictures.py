@@ -27,19 +27,19 @@ PICTURES += [
 
 MOTION = "examples/motion"
 DRIVEN = ["--layers", "programmed,actual"]
-CLASSIC = ["--machine", f"{MOTION}/classic.toml"]
+MOTION_PICTURES = {
+    "speed": ["pocket.nc", "--layers", "speed", "--view", "plan"],
+    "square": ["square.nc", "--chart"],
+    "tolerance": ["corner.nc", "--machine", f"{MOTION}/tolerance.toml", *DRIVEN],
+    "classic-corner": ["corner.nc", "--machine", f"{MOTION}/classic.toml", *DRIVEN, "--view", "plan"],
+    "classic-arcs": [
+        "rounded.nc", "--machine", f"{MOTION}/classic.toml", *DRIVEN, "--view", "plan", "--exaggerate", "25",
+    ],
+    "classic-short": ["short.nc", "--machine", f"{MOTION}/slow.toml", "--chart"],
+}
 PICTURES += [
-    (f"docs/motion/corner-{tolerance}.svg",
-     [f"{MOTION}/corner.nc", "--machine", f"{MOTION}/tolerance-{tolerance}.toml", *DRIVEN, "--around", "19.7,0.2,1"], 0)
-    for tolerance in ["0.01", "0.05", "0.2"]
-]
-PICTURES += [
-    ("docs/motion/corner-classic.svg", [f"{MOTION}/corner.nc", *CLASSIC, *DRIVEN, "--view", "plan"], 0),
-    ("docs/motion/circle-classic.svg",
-     [f"{MOTION}/circle.nc", *CLASSIC, *DRIVEN, "--view", "plan", "--exaggerate", "50"], 0),
-    ("docs/motion/pocket-speed.svg", [f"{MOTION}/pocket.nc", "--layers", "speed", "--view", "plan"], 0),
-    ("docs/motion/square-chart.svg", [f"{MOTION}/square.nc", "--chart"], 0),
-    ("docs/motion/square-exact-chart.svg", [f"{MOTION}/square-exact.nc", "--chart"], 0),
+    (f"docs/motion/{name}.svg", [f"{MOTION}/{program}", *arguments], 0)
+    for name, (program, *arguments) in MOTION_PICTURES.items()
 ]
 # The pages that show them, but for the plate's, which is the README's.
 PAGES = ["docs/compensation.md", "docs/motion.md"]

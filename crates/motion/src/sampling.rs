@@ -12,6 +12,8 @@ use crate::way::{Way, norm};
 const OF_A_RAPID: u32 = 256;
 /// Between two setpoints the speed changes by at most this part of the move's highest.
 const PART_OF_SPEED: f64 = 1.0 / 48.0;
+/// Of a stretch round a corner at least so many, however small it is: how far the corner is left is read from them.
+const LEAST_OF_A_CORNER: f64 = 8.0;
 /// Of one stretch at most so many.
 const MOST_OF_A_STRETCH: f64 = 4096.0;
 
@@ -83,7 +85,8 @@ impl Stretch {
                 driven * uneven.min(2.0) * (bend / (8.0 * tolerance_mm)).sqrt()
             }
         };
-        speeds.max(bends).ceil().clamp(1.0, MOST_OF_A_STRETCH)
+        let least = if matches!(self.way, Way::Blend { .. }) { LEAST_OF_A_CORNER } else { 1.0 };
+        speeds.max(bends).ceil().clamp(least, MOST_OF_A_STRETCH)
     }
 }
 

@@ -28,6 +28,12 @@ const JUMP: [f64; 2] = [3.0, 1e-6];
 /// A deviation below this, in mm, is none: it comes of chords.
 const NOTHING: f64 = 5e-7;
 
+/// Between places that are so far off at least, mm, a farther one is looked for, by halving at most so often, until none
+/// can be so many times as far.
+const OFF: f64 = 1e-5;
+const MOST_HALVED: u32 = 12;
+const NO_FARTHER: f64 = 1.0005;
+
 /// The largest deviation.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Farthest {
@@ -115,16 +121,32 @@ impl Deviation {
             if self.places.last().is_some_and(|last| last.at == *point) {
                 continue;
             }
-            let place = self.place(*point);
-            if place.off > self.farthest.map_or(NOTHING, |farthest| farthest.by) {
-                self.farthest = Some(Farthest { by: place.off, at: *point, foot: place.foot_at });
-            }
-            self.places.push(place);
+            self.drive_to(*point, MOST_HALVED);
         }
         let stands_on_it = self.places.last().is_some_and(|last| last.off < NOTHING);
         if stands_on_it || self.places.len() > MOST_PLACES || self.ways.len() > MOST_WAYS {
             self.draw(&mut line);
         }
+    }
+
+    /// The axes drive straight to a place. Where the foot goes over to another way, the farthest place may lie between:
+    /// nothing there is farther off than the mean of both ends and the way between them allow.
+    fn drive_to(&mut self, point: [f64; 3], halved: u32) {
+        let (on, last) = (self.on, self.places.last().copied());
+        let place = self.place(point);
+        let known = self.farthest.map_or(NOTHING, |farthest| farthest.by);
+        if let Some(last) = last.filter(|last| self.on != on && last.off.min(place.off) > OFF) {
+            let most = (last.off + place.off + distance(last.at, point)) / 2.0;
+            if halved > 0 && most > known * NO_FARTHER {
+                self.on = on;
+                self.drive_to(std::array::from_fn(|axis| (last.at[axis] + point[axis]) / 2.0), halved - 1);
+                return self.drive_to(point, halved - 1);
+            }
+        }
+        if place.off > known {
+            self.farthest = Some(Farthest { by: place.off, at: point, foot: place.foot_at });
+        }
+        self.places.push(place);
     }
 
     /// The axes leave what was ordered.

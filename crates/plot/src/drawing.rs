@@ -86,6 +86,13 @@ impl Drawing {
         }
     }
 
+    /// The axes cut through these places, for layer [`Layer::Actual`], with nothing that they could be compared with.
+    pub fn driven_alone(&mut self, points: &[[f64; 3]]) {
+        if points.iter().all(|point| is_drawable(point)) {
+            self.layers.driven_alone(Kind::Feed, points);
+        }
+    }
+
     /// A programmed way, beside which the tool runs.
     pub fn programmed(&mut self, way: &Stroke) {
         if let Some(piece) = piece_of(way) {

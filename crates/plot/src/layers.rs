@@ -133,20 +133,25 @@ impl Layers {
         if !self.shows(Layer::Actual) {
             return;
         }
+        if kind == Kind::Rapid {
+            return self.driven_alone(kind, points);
+        }
         let Layers { driven, deviation, .. } = self;
-        let piece = |from, to| Piece { kind, from, to, arc: None, feed: 0.0 };
-        if kind == Kind::Feed {
-            deviation.drive(points, |from, to| driven.push(&piece(from, to)));
-        } else {
-            deviation.leave(|from, to| driven.push(&Piece { kind: Kind::Feed, ..piece(from, to) }));
-            points.windows(2).for_each(|pair| driven.push(&piece(pair[0], pair[1])));
+        deviation.drive(points, |from, to| driven.push(&straight(kind, from, to)));
+    }
+
+    /// The axes have driven to a place, and what was ordered before that has ended.
+    pub fn driven_alone(&mut self, kind: Kind, points: &[[f64; 3]]) {
+        if self.shows(Layer::Actual) {
+            self.finish();
+            points.windows(2).for_each(|pair| self.driven.push(&straight(kind, pair[0], pair[1])));
         }
     }
 
     /// Nothing more is driven.
     pub fn finish(&mut self) {
         let Layers { driven, deviation, .. } = self;
-        deviation.leave(|from, to| driven.push(&Piece { kind: Kind::Feed, from, to, arc: None, feed: 0.0 }));
+        deviation.leave(|from, to| driven.push(&straight(Kind::Feed, from, to)));
     }
 
     /// A programmed way.
@@ -209,6 +214,10 @@ impl Layers {
     pub fn shows(&self, layer: Layer) -> bool {
         self.shown.contains(&layer)
     }
+}
+
+fn straight(kind: Kind, from: [f64; 3], to: [f64; 3]) -> Piece {
+    Piece { kind, from, to, arc: None, feed: 0.0 }
 }
 
 impl DrawnLayers<'_> {

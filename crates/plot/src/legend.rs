@@ -67,7 +67,11 @@ impl Entry {
             }
             Entry::Driven(_) => "driven path".to_owned(),
             Entry::Circled(by, times) => {
-                format!("largest deviation, {} mm, at the right {} times as large", written_deviation(*by), written(*times))
+                format!(
+                    "largest deviation, {} mm, at the right {} times as large",
+                    written_deviation(*by),
+                    written(*times)
+                )
             }
             Entry::Speed(_) => "real speed, mm/min".to_owned(),
             Entry::Tool(radii) => tool_text(radii),

@@ -48,7 +48,9 @@ fn deviation(content: &Content, views: &Views) -> Vec<String> {
         let window = Step::at_least(farthest.by * WINDOW).times(1.0);
         let [x, y] = [farthest.at[0], farthest.at[1]].map(|at| format!("{at:.3}"));
         note.push_str(" Too little to be seen here.");
-        hint = Some(format!("Seen with --around {x},{y},{window}, or drawn larger with --exaggerate {times}."));
+        hint = Some(format!(
+            "It is seen with --around {x},{y},{window} or, drawn larger everywhere, with --exaggerate {times}."
+        ));
     }
     [note].into_iter().chain(hint).collect()
 }

@@ -65,9 +65,8 @@ pub(crate) fn sheet(content: &Content) -> String {
         Look::Plan | Look::Around(..) => plan_layout(size(Projection::Plan), inset),
     };
     let plan = View::fit(Projection::Plan, &frame, layout.plan, inset);
-    let detail = (content.look == Look::Both)
-        .then(|| Detail::of(&content.layers, plan.scale, size(Projection::Plan)))
-        .flatten();
+    let detail =
+        (content.look == Look::Both).then(|| Detail::of(&content.layers, plan.scale, size(Projection::Plan))).flatten();
     let (layout, detail) = detail.map_or((layout, None), |(layout, detail)| (layout, Some(detail)));
     let views = Views {
         plan: View::fit(Projection::Plan, &frame, layout.plan, inset),
@@ -172,9 +171,7 @@ fn facts(survey: &Survey) -> String {
 
 fn draw_headings(canvas: &mut Canvas, layout: &Layout, detail: Option<&Detail>) {
     let detail = detail.map(|detail| detail.view.panel);
-    for (panel, text) in
-        [(Some(layout.plan), "Plan"), (layout.isometric, "Isometric"), (detail, "In the circle")]
-    {
+    for (panel, text) in [(Some(layout.plan), "Plan"), (layout.isometric, "Isometric"), (detail, "In the circle")] {
         let Some(panel) = panel else { continue };
         canvas.text(&Label::new(text, [panel.middle()[0], panel.y - 13.0], HEADING_SIZE, Anchor::Middle), INK);
     }

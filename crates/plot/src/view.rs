@@ -97,9 +97,10 @@ impl View {
         let flat = self.projection.flat_extent(extent);
         let ([x, y], room) = (flat.middle(), [self.panel.width, self.panel.height]);
         let apart = [(x - self.middle[0], flat.width), (y - self.middle[1], flat.height)];
-        apart.into_iter().zip(room).all(|((apart, size), room)| {
-            apart.abs() <= 0.5 * size + (0.5 * room + EDGE) / self.scale
-        })
+        apart
+            .into_iter()
+            .zip(room)
+            .all(|((apart, size), room)| apart.abs() <= 0.5 * size + (0.5 * room + EDGE) / self.scale)
     }
 
     /// True if the panel is a window on a small part of the box: as a whole its picture would be too large to be exact.

@@ -18,14 +18,15 @@ pub enum LayerArgument {
     /// The path as it is driven, coloured by its real speed, with a legend in mm/min
     Speed,
     /// The path as it is driven: corners rounded within the tolerance, or by the lag of an old control's axes; programmed
-    /// is then the path of every block
+    /// is then the path of every block. Where it is farthest off is drawn enlarged beside the plan if it is too little to
+    /// be seen there
     Actual,
 }
 
 /// From where the path is seen.
 #[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ViewArgument {
-    /// Plan and isometric
+    /// Plan and isometric, or the plan and its largest deviation enlarged
     Both,
     /// From above only, on a smaller sheet
     Plan,
@@ -63,16 +64,17 @@ pub struct PlotArguments {
     /// The picture to write: its ending, .svg or .png, says which kind
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// What is drawn, as in programmed,compensated,tool; what the tool does not fit beside is always marked
+    /// What is drawn, as in programmed,compensated,tool or programmed,actual; what the tool does not fit beside is always
+    /// marked
     #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',', default_value = "compensated")]
     pub layers: Vec<LayerArgument>,
     /// From where the path is seen
     #[arg(long, value_enum, value_name = "VIEW", default_value = "both")]
     pub view: ViewArgument,
     /// Only what is around a place, from above: X, Y and width in mm as on the picture's axes, such as 20,0,1
-    #[arg(long, value_name = "X,Y,WIDTH", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,WIDTH", allow_hyphen_values = true, conflicts_with = "view")]
     pub around: Option<Window>,
-    /// Draw the deviation of layer actual so many times as large
+    /// Draw the deviation of layer actual so many times as large, everywhere
     #[arg(long, value_name = "TIMES", default_value = "1", value_parser = times)]
     pub exaggerate: f64,
     /// Instead of the path, speed and the velocity of every axis over time

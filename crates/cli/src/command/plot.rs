@@ -12,7 +12,7 @@ use report::{Format, render};
 use self::driven::Driven;
 use self::strokes::{Strokes, layer};
 use super::{name_of, open, run_through};
-use crate::arguments::{PlotArguments, ViewArgument};
+use crate::arguments::{LayerArgument, PlotArguments, ViewArgument};
 use crate::failure::Failure;
 use crate::output::{colour_err, say, write_file};
 use crate::show_alarm::show_alarm;
@@ -38,6 +38,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
     if arguments.chart {
         return chart::chart(arguments, picture);
     }
+    agrees(arguments)?;
     let mut session = open(&arguments.file, &arguments.setting)?;
     let mut driven = Driven::new(&arguments.layers, arguments.around.map(|window| window.1), arguments.exaggerate);
     if driven.is_wanted() {
@@ -118,6 +119,21 @@ impl Picture {
         };
         write_file(&arguments.output, bytes, &arguments.setting.files(&arguments.file))
     }
+}
+
+/// Refuses what contradicts itself.
+fn agrees(arguments: &PlotArguments) -> Result<(), Failure> {
+    let has = |layer| arguments.layers.contains(&layer);
+    let wrong = if has(LayerArgument::Speed) && has(LayerArgument::Actual) {
+        "layer speed colours the path that is driven, layer actual draws it beside another: choose one of them"
+    } else if has(LayerArgument::Speed) && has(LayerArgument::Compensated) {
+        "layer speed is the path of layer compensated in other colours: choose one of them"
+    } else if arguments.exaggerate != 1.0 && !has(LayerArgument::Actual) {
+        "--exaggerate draws the deviation of layer actual larger: add --layers programmed,actual"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::call(wrong))
 }
 
 /// From where the path is seen.

@@ -94,8 +94,14 @@ impl Driven {
             drawing.stroke(stroke);
         }
         if self.actual {
-            drawing.ordered(stroke);
-            drawing.driven(stroke.kind, &self.places);
+            // An arc that a fourth axis turns in is no arc in the picture: there is nothing to measure it by.
+            let is_measured = stroke.arc.is_some() || !matches!(event, EventKind::Arc { .. });
+            if is_measured {
+                drawing.ordered(stroke);
+                drawing.driven(stroke.kind, &self.places);
+            } else {
+                drawing.driven_alone(&self.places);
+            }
         }
     }
 
