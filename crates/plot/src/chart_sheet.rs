@@ -9,6 +9,7 @@ use crate::path_data::PathData;
 use crate::rect::Rect;
 use crate::scale::{Step, written};
 use crate::sheet::draw_header;
+use crate::simplify::simplify;
 use crate::text::width;
 use crate::trace::{Spans, Trace};
 
@@ -21,6 +22,8 @@ const BLOCKS_HEIGHT: f64 = 26.0;
 const SPEED_HEIGHT: f64 = 290.0;
 const AXIS_HEIGHT: f64 = 116.0;
 const BETWEEN: f64 = 16.0;
+/// What is so near to a line is not seen beside it.
+const UNSEEN: f64 = 0.03;
 /// Sizes of text.
 const NUMBER: f64 = 15.0;
 const NAME: f64 = 16.0;
@@ -215,10 +218,19 @@ fn time_ticks(speed: &Panel) -> Vec<f64> {
     Step::at_least(speed.seconds * APART[0] / speed.rect.width).ticks(0.0, speed.seconds)
 }
 
+/// A trace on the sheet, without the points that would not be seen.
+fn drawn(panel: &Panel, trace: &Trace) -> Vec<[f64; 3]> {
+    let points: Vec<[f64; 3]> = trace.points().iter().map(|point| panel.at(*point)).map(|[x, y]| [x, y, 0.0]).collect();
+    let mut fewer = Vec::new();
+    simplify(&points, UNSEEN, &mut fewer);
+    fewer
+}
+
 fn draw_trace(canvas: &mut Canvas, panel: &Panel, trace: &Trace, (colour, weight, _): Line) {
     let mut path = PathData::default();
-    for pair in trace.points().windows(2) {
-        path.line(panel.at(pair[0]), panel.at(pair[1]));
+    for pair in drawn(panel, trace).windows(2) {
+        let [from, to] = [pair[0], pair[1]].map(|[x, y, _]| [x, y]);
+        path.line(from, to);
     }
     canvas.open(&format!("stroke=\"{colour}\" stroke-width=\"{weight}\" stroke-linejoin=\"round\""));
     path.finish().iter().for_each(|d| canvas.path(d, ""));
@@ -232,11 +244,12 @@ fn draw_area(canvas: &mut Canvas, panel: &Panel, trace: &Trace, (colour, weight,
     }
     let mut path = PathData::default();
     let mut area = String::new();
-    for pair in trace.points().windows(2).filter(|pair| pair[0][1] > 0.0 || pair[1][1] > 0.0) {
-        let ends = [panel.at(pair[0]), panel.at(pair[1])];
+    let zero = panel.y(0.0);
+    for pair in drawn(panel, trace).windows(2).filter(|pair| pair[0][1] < zero || pair[1][1] < zero) {
+        let ends = [pair[0], pair[1]].map(|[x, y, _]| [x, y]);
         path.line(ends[0], ends[1]);
         if ends[0][0] < ends[1][0] {
-            let [[left, from], [right, to], zero] = [ends[0], ends[1], [panel.y(0.0); 2]].map(|at| at.map(short));
+            let [[left, from], [right, to], zero] = [ends[0], ends[1], [zero; 2]].map(|at| at.map(short));
             area.push_str(&format!("M{left} {}V{from}L{right} {to}V{}z", zero[0], zero[1]));
         }
     }
