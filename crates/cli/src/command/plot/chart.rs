@@ -47,7 +47,7 @@ pub(super) fn chart(arguments: &PlotArguments, picture: Picture) -> Result<bool,
                 chart.moves(run.kind, (during[0] + since).min(end), setpoint.speed() * 60.0, &velocities);
             });
         }
-        chart.block(u64::from(event.place.line), event.time.0);
+        chart.block(event.place.line, event.time.0);
         match &event.kind {
             EventKind::Start(_) => chart.name(name_of(session, event.place.program)),
             EventKind::Alarm(alarm) => {
