@@ -30,7 +30,9 @@ const NAME: f64 = 16.0;
 /// Numbers stand at least so far apart, along time and upwards.
 const APART: [f64; 2] = [84.0, 34.0];
 /// The borders of more blocks are not drawn: there would be nothing else.
-const MOST_BLOCKS: usize = 120;
+const MOST_BLOCKS: usize = 60;
+/// Rapids that are more than so many times as fast as the fastest feed leave the panel.
+const MOST_ABOVE_FEED: f64 = 2.5;
 /// The legend's rows, and the line before a text.
 const LEGEND_ROW: f64 = 28.0;
 const SAMPLE: f64 = 36.0;
@@ -72,15 +74,16 @@ pub(crate) fn chart_sheet(chart: &Chart) -> String {
     let left = MARGIN + NUMBERS;
     let rect = |y: f64, height: f64| Rect { x: left, y, width: WIDTH - MARGIN - left, height };
     let speed_top = BLOCKS_TOP + BLOCKS_HEIGHT;
-    let highest = [chart.cutting.highest, chart.rapid.highest]
-        .into_iter()
-        .chain(chart.commanded.iter().map(|(_, feed)| feed))
-        .fold(0.0, f64::max);
+    let cutting = chart.commanded.iter().map(|(_, feed)| feed).fold(chart.cutting.highest, f64::max);
+    // Rapids are many times as fast: beside them no difference between feeds would be seen.
+    let has_room = cutting <= 0.0 || chart.rapid.highest <= MOST_ABOVE_FEED * cutting;
+    let highest = if has_room { cutting.max(chart.rapid.highest) } else { cutting };
     let speed = Panel {
         rect: rect(speed_top, SPEED_HEIGHT),
         seconds,
         range: [0.0, if highest > 0.0 { highest * 1.08 } else { 1.0 }],
     };
+    let beyond = chart.rapid.highest > speed.range[1];
     let mut panels = Vec::new();
     let mut top = speed.rect.bottom() + BETWEEN;
     for axis in &moving {
@@ -90,7 +93,7 @@ pub(crate) fn chart_sheet(chart: &Chart) -> String {
         top += AXIS_HEIGHT + BETWEEN;
     }
     let bottom = top - BETWEEN;
-    let notes = notes(chart);
+    let notes = notes(chart, beyond);
     let legend_top = bottom + 58.0;
     let entries = legend(chart);
     let height = legend_top + LEGEND_ROW + LEGEND_ROW * notes.len() as f64 + 18.0;
@@ -102,7 +105,11 @@ pub(crate) fn chart_sheet(chart: &Chart) -> String {
     draw_time_grid(&mut canvas, &speed, bottom);
     draw_blocks(&mut canvas, chart, &speed, bottom);
     draw_frame(&mut canvas, &speed, ["speed", "mm/min"]);
-    draw_area(&mut canvas, &speed, &chart.rapid, POSITIONING);
+    if chart.rapid.highest > 0.0 {
+        canvas.open_clipped(&speed.rect, "");
+        draw_area(&mut canvas, &speed, &chart.rapid, POSITIONING);
+        canvas.close();
+    }
     draw_area(&mut canvas, &speed, &chart.cutting, CUTTING);
     draw_steps(&mut canvas, &speed, &chart.allowed, ALLOWED);
     draw_steps(&mut canvas, &speed, &chart.commanded, COMMANDED);
@@ -114,7 +121,7 @@ pub(crate) fn chart_sheet(chart: &Chart) -> String {
     draw_legend(&mut canvas, &entries, legend_top);
     for (row, note) in notes.iter().enumerate() {
         let at = [MARGIN, legend_top + LEGEND_ROW * (row as f64 + 1.5)];
-        canvas.text(&Label::new(*note, at, NUMBER, Anchor::Start).centred(), SOFT_INK);
+        canvas.text(&Label::new(note.as_str(), at, NUMBER, Anchor::Start).centred(), SOFT_INK);
     }
     canvas.finish()
 }
@@ -311,16 +318,19 @@ fn draw_legend(canvas: &mut Canvas, entries: &[(Line, &'static str)], top: f64) 
 }
 
 /// What the chart does not show.
-fn notes(chart: &Chart) -> Vec<&'static str> {
+fn notes(chart: &Chart, beyond: bool) -> Vec<String> {
     let traces = [&chart.cutting, &chart.rapid].into_iter().chain(chart.axes.iter().map(|axis| &axis.velocity));
     let mut notes = Vec::new();
     if chart.seconds <= 0.0 {
-        notes.push("Nothing takes time.");
+        notes.push("Nothing takes time.".to_owned());
+    }
+    if beyond {
+        notes.push(format!("Rapids leave the picture: up to {} mm/min.", written(chart.rapid.highest.round())));
     }
     if traces.into_iter().any(|trace| trace.is_thinned) {
-        notes.push(
-            "The program is long: of values that lie closer than a line is wide, the lowest and the highest are drawn.",
-        );
+        let long =
+            "The program is long: of values that lie closer than a line is wide, the lowest and the highest are drawn.";
+        notes.push(long.to_owned());
     }
     notes
 }

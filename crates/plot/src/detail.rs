@@ -5,6 +5,7 @@ use crate::colour::INK;
 use crate::extent::Extent;
 use crate::layers::DrawnLayers;
 use crate::layout::{ISOMETRIC_INSET, Layout, detail_layout};
+use crate::piece::Piece;
 use crate::view::{Projection, View};
 
 /// A deviation of fewer sheet units is not seen beside the lines' own width; of so many it is seen well.
@@ -17,6 +18,9 @@ const LEAST_WINDOW: f64 = 0.05;
 
 /// The paths' own errors are at most this part of a window.
 const ERROR_PART: f64 = 0.002;
+
+/// A line that rises by more than this part of its longest side climbs.
+const STEEP: f64 = 0.1;
 
 /// The radius of the circle that shows in the plan where it is, in sheet units; at least.
 const CIRCLE: f64 = 11.0;
@@ -40,17 +44,17 @@ impl Detail {
             return None;
         }
         let (layout, panel) = detail_layout(plan);
-        let by = |projection: Projection| {
-            let [from, to] = [farthest.foot, farthest.at].map(|point| projection.flat(point));
-            libm::hypot(to[0] - from[0], to[1] - from[1])
-        };
-        // What is off along Z is not seen from above.
-        let projection = [Projection::Plan, Projection::Isometric]
-            .into_iter()
-            .find(|projection| by(*projection) >= 0.6 * farthest.by)
-            .unwrap_or(Projection::Isometric);
         let width = (farthest.by * WINDOW).max(LEAST_WINDOW).max(layers.error_mm / ERROR_PART);
         let half = 0.5 * width;
+        // From above, what goes up or down lies on itself.
+        let near = Extent { min: farthest.at, max: farthest.at }.grown(half);
+        let climbs = |piece: &Piece| {
+            let extent = piece.extent();
+            let meets = (0..3).all(|axis| extent.min[axis] <= near.max[axis] && near.min[axis] <= extent.max[axis]);
+            meets && extent.size(2) > STEEP * extent.span()
+        };
+        let is_seen_from_above = !layers.driven.iter().any(climbs);
+        let projection = if is_seen_from_above { Projection::Plan } else { Projection::Isometric };
         let (half, inset) = match projection {
             Projection::Plan => ([half, half * panel.height / panel.width, half], [0.0; 4]),
             Projection::Isometric => ([0.5 * half; 3], ISOMETRIC_INSET),

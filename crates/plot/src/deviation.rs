@@ -39,9 +39,8 @@ const NO_FARTHER: f64 = 1.0005;
 pub(crate) struct Farthest {
     /// mm.
     pub by: f64,
-    /// Where the axes were, and where they should have been.
+    /// Where the axes were.
     pub at: [f64; 3],
-    pub foot: [f64; 3],
 }
 
 /// A way that was ordered.
@@ -144,7 +143,7 @@ impl Deviation {
             }
         }
         if place.off > known {
-            self.farthest = Some(Farthest { by: place.off, at: point, foot: place.foot_at });
+            self.farthest = Some(Farthest { by: place.off, at: point });
         }
         self.places.push(place);
     }

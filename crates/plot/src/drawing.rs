@@ -93,6 +93,13 @@ impl Drawing {
         }
     }
 
+    /// A way that the axes are to drive, which is drawn beside the one that they drive.
+    pub fn commanded(&mut self, way: &Stroke) {
+        if let Some(piece) = piece_of(way) {
+            self.layers.commanded(&piece);
+        }
+    }
+
     /// A programmed way, beside which the tool runs.
     pub fn programmed(&mut self, way: &Stroke) {
         if let Some(piece) = piece_of(way) {

@@ -63,6 +63,8 @@ impl Whole {
 pub(crate) struct Layers {
     shown: Vec<Layer>,
     programmed: Whole,
+    /// A contour is among what is programmed, beside which the tool runs.
+    has_contour: bool,
     driven: Whole,
     deviation: Deviation,
     /// What the tool sweeps; its radius in mm stands where a path has its feed.
@@ -81,6 +83,7 @@ pub(crate) struct DrawnLayers<'l> {
     /// The path is coloured by real speed.
     pub by_speed: bool,
     pub programmed: Vec<Piece>,
+    pub has_contour: bool,
     pub driven: Vec<Piece>,
     /// How many times the driven path's deviation is drawn, and where it is largest.
     pub exaggeration: f64,
@@ -102,6 +105,7 @@ impl Layers {
         Layers {
             shown: vec![Layer::Compensated],
             programmed: Whole::new(),
+            has_contour: false,
             driven: Whole::new(),
             deviation: Deviation::new(1.0),
             swept: Whole::new(),
@@ -161,8 +165,16 @@ impl Layers {
         }
     }
 
+    /// A way that the axes are to drive.
+    pub fn commanded(&mut self, piece: &Piece) {
+        if self.shows(Layer::Programmed) && self.shows(Layer::Actual) {
+            self.programmed.push(&Piece { feed: 0.0, ..*piece });
+        }
+    }
+
     /// A programmed way near a refused one: it is drawn whatever layers are.
     pub fn refused_among(&mut self, piece: &Piece) {
+        self.has_contour = true;
         self.programmed.push(&Piece { feed: 0.0, ..*piece });
     }
 
@@ -199,6 +211,7 @@ impl Layers {
             is_named: self.shown != [Layer::Compensated] && !self.shows(Layer::Speed) || !programmed.is_empty(),
             by_speed: self.shows(Layer::Speed),
             programmed,
+            has_contour: self.has_contour,
             driven: driven.pieces,
             exaggeration: self.deviation.times,
             farthest: self.deviation.farthest,

@@ -31,6 +31,8 @@ pub(crate) enum Entry {
     Contour,
     /// The programmed path's line, beside the one that is driven.
     Programmed,
+    /// The programmed contour's line, and that of the commanded path beside it.
+    ContourAndPath,
     /// The path that is driven, and how many times its deviation is drawn.
     Driven(f64),
     /// The circle round the largest deviation: how many mm that is, and how many times it is drawn beside the plan.
@@ -62,6 +64,7 @@ impl Entry {
         match self {
             Entry::Contour => "programmed contour".to_owned(),
             Entry::Programmed => "programmed path".to_owned(),
+            Entry::ContourAndPath => "programmed contour, and the commanded path beside it".to_owned(),
             Entry::Driven(times) if *times != 1.0 => {
                 format!("driven path, its deviation drawn {} times as large", written(*times))
             }
@@ -90,7 +93,7 @@ impl Entry {
 
     fn sample(&self) -> f64 {
         match self {
-            Entry::Contour | Entry::Programmed | Entry::Driven(_) => LINE_SAMPLE,
+            Entry::Contour | Entry::Programmed | Entry::ContourAndPath | Entry::Driven(_) => LINE_SAMPLE,
             Entry::Swept | Entry::Refused | Entry::Rapid | Entry::Feed(..) => LINE_SAMPLE,
             Entry::Tool(_) | Entry::Circled(..) | Entry::Hole | Entry::Sign(_) => SIGN_SAMPLE,
             Entry::Path | Entry::Scale(..) | Entry::Speed(_) => 0.0,
@@ -155,7 +158,9 @@ fn row_height(row: &[Entry]) -> f64 {
 fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Palette) {
     let middle = [x + 0.5 * entry.sample(), y];
     match entry {
-        Entry::Contour | Entry::Programmed => draw_sample(canvas, [x, y], CONTOUR, CONTOUR_WEIGHT),
+        Entry::Contour | Entry::Programmed | Entry::ContourAndPath => {
+            draw_sample(canvas, [x, y], CONTOUR, CONTOUR_WEIGHT)
+        }
         Entry::Driven(_) => draw_sample(canvas, [x, y], DRIVEN, DRIVEN_WEIGHT),
         Entry::Refused => {
             draw_sample(canvas, [x, y], ALARM, REFUSED_WEIGHT);

@@ -225,7 +225,11 @@ fn entries(content: &Content, views: &Views, palette: &Palette, cuts: &[DownCut]
     let mut entries = Vec::new();
     let layers = &content.layers;
     if !layers.programmed.is_empty() {
-        entries.push(if layers.driven.is_empty() { Entry::Contour } else { Entry::Programmed });
+        entries.push(match (layers.driven.is_empty(), layers.has_contour) {
+            (true, _) => Entry::Contour,
+            (false, true) => Entry::ContourAndPath,
+            (false, false) => Entry::Programmed,
+        });
     }
     if !layers.driven.is_empty() {
         entries.push(Entry::Driven(layers.exaggeration));

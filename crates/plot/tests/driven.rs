@@ -33,7 +33,7 @@ fn corner(off: f64, up: usize, show: impl FnOnce(&mut Drawing)) -> String {
         drawing.stroke(way);
         drawing.ordered(way);
         drawing.driven(Kind::Feed, &driven);
-        drawing.programmed(way);
+        drawing.commanded(way);
     }
     let svg = drawing.svg();
     assert_well_formed(&svg);
@@ -184,6 +184,38 @@ fn a_chart_of_very_many_blocks_names_the_lines_at_round_times() {
     assert_well_formed(&svg);
     assert!(svg.len() < 3_000_000, "{}", svg.len());
     assert!(svg.contains(">1</text>") && svg.contains("The program is long"), "the first line is at time 0");
+}
+
+#[test]
+fn rapids_many_times_as_fast_as_the_feed_leave_the_chart_and_are_said_in_words() {
+    let sheet = |rapid: f64| {
+        let mut chart = chart(&[('X', false)]);
+        for (nth, (kind, speed)) in [(Kind::Rapid, rapid), (Kind::Feed, 300.0)].into_iter().enumerate() {
+            let from = nth as f64;
+            chart.begin(kind, [from, from + 1.0]);
+            chart.moves(kind, from, speed, &[speed]);
+            chart.moves(kind, from + 1.0, speed, &[speed]);
+            chart.block(nth as u64, from + 1.0);
+        }
+        chart.svg()
+    };
+    let near = sheet(600.0);
+    assert!(near.contains(">600</text>") && !near.contains("leave"), "{near}");
+    let far = sheet(12_000.0);
+    assert!(far.contains(">300</text>") && far.contains("Rapids leave the picture: up to 12000 mm/min."), "{far}");
+    assert_well_formed(&far);
+}
+
+#[test]
+fn under_compensation_the_commanded_path_is_drawn_beside_the_contour() {
+    let sheet = |contour: bool| {
+        corner(4.0, 1, |drawing| {
+            let way = cut([0.0, 0.0, 0.0], [100.0, 0.0, 0.0], 500.0);
+            if contour { drawing.programmed(&way) } else { drawing.commanded(&way) }
+        })
+    };
+    assert!(sheet(true).contains("programmed contour, and the commanded path beside it"));
+    assert!(sheet(false).contains("programmed path"));
 }
 
 #[test]

@@ -66,11 +66,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
         });
         if let Some(stroke) = strokes.of_event(&event.kind, tool) {
             driven.draw(drawing, &strokes, session, &event.kind, &stroke);
-            let along = strokes.beside(drawing, session.beside(), &event.kind, &stroke);
-            if !along {
-                driven.draw_programmed(drawing, &stroke);
-            }
-            runs_along |= along;
+            runs_along |= strokes.beside(drawing, session.beside(), &event.kind, &stroke);
         }
         if event.kind == EventKind::BlockDone && !std::mem::take(&mut runs_along) {
             // Beside an arc as large as the tool nothing moves.

@@ -42,7 +42,6 @@ pub fn run_of(event: &EventKind) -> Option<Run> {
 pub struct Driven {
     speed: bool,
     actual: bool,
-    programmed: bool,
     tolerance_mm: f64,
     /// The places of the present move, and the speed there in mm/min.
     places: Vec<[f64; 3]>,
@@ -55,8 +54,7 @@ impl Driven {
         let (speed, actual) = (wanted(LayerArgument::Speed), wanted(LayerArgument::Actual));
         let whole = if actual { OF_DEVIATION } else { OF_SPEED };
         let tolerance_mm = window_mm.map_or(whole, |width| whole.min(width * OF_WINDOW)) / exaggeration;
-        let programmed = wanted(LayerArgument::Programmed);
-        Driven { speed, actual, programmed, tolerance_mm, places: Vec::new(), speeds: Vec::new() }
+        Driven { speed, actual, tolerance_mm, places: Vec::new(), speeds: Vec::new() }
     }
 
     /// True if anything of it is.
@@ -98,17 +96,13 @@ impl Driven {
             let is_measured = stroke.arc.is_some() || !matches!(event, EventKind::Arc { .. });
             if is_measured {
                 drawing.ordered(stroke);
+                if stroke.kind == Kind::Feed {
+                    drawing.commanded(stroke);
+                }
                 drawing.driven(stroke.kind, &self.places);
             } else {
                 drawing.driven_alone(&self.places);
             }
-        }
-    }
-
-    /// Beside the driven path, what was programmed of a move that runs beside nothing.
-    pub fn draw_programmed(&self, drawing: &mut Drawing, stroke: &Stroke) {
-        if self.actual && self.programmed && stroke.kind == Kind::Feed {
-            drawing.programmed(stroke);
         }
     }
 
