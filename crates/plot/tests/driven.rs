@@ -1,6 +1,7 @@
 //! Pictures of how the axes move, from outside: real speeds, deviations, charts.
 
 use plot::{Arc, Chart, ChartAxis, Drawing, Kind, Layer, Look, Plane, Stroke, Title};
+use proptest::prelude::*;
 use resvg::usvg;
 
 fn title() -> Title {
@@ -229,4 +230,38 @@ fn nothing_is_a_chart_too() {
     strange.moves(Kind::Rapid, 1.0, f64::INFINITY, &[f64::NAN]);
     strange.block(1, f64::INFINITY);
     assert_well_formed(&strange.svg());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn whatever_is_driven_is_a_picture(
+        points in prop::collection::vec(prop::array::uniform3(-1e3..1e3f64), 2..20),
+        scale in -9..9i32,
+        off in prop::array::uniform3(-1.0..1.0f64),
+        off_by in -8..3i32,
+        times in 1.0..1e6f64,
+        look in 0..3u8,
+    ) {
+        let mut drawing = Drawing::new(title());
+        drawing.show(&[Layer::Programmed, Layer::Actual, Layer::Compensated]);
+        drawing.look([Look::Both, Look::Plan, Look::Around([0.0, 0.0], 0.001)][usize::from(look)]);
+        drawing.exaggerate(if times < 5e5 { 1.0 } else { times });
+        let points: Vec<[f64; 3]> = points.iter().map(|at| at.map(|part| part * 10f64.powi(scale))).collect();
+        for pair in points.windows(2) {
+            let way = cut(pair[0], pair[1], 500.0);
+            let beside = |part: f64| {
+                let at = |axis: usize| pair[0][axis] + (pair[1][axis] - pair[0][axis]) * part;
+                std::array::from_fn(|axis| at(axis) + off[axis] * 10f64.powi(off_by))
+            };
+            drawing.stroke(&way);
+            drawing.ordered(&way);
+            drawing.commanded(&way);
+            drawing.driven(Kind::Feed, &[beside(0.0), beside(0.3), beside(1.0)]);
+        }
+        let svg = drawing.svg();
+        assert_well_formed(&svg);
+        prop_assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}", svg);
+    }
 }
