@@ -9,8 +9,8 @@
 
 use base::{AXES, Point};
 
-use crate::limits::{AxisLimits, Limits};
-use crate::way::{Way, dot};
+use crate::limits::Scale;
+use crate::way::Edge;
 
 /// One strip: `-half ≤ x + lean y ≤ half`.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -27,6 +27,14 @@ const AT_THE_LIMIT: f64 = 1.0 + 1e-9;
 const SEARCH_STEPS: usize = 2 * STRIPS;
 /// A strip that does not bound `x` at all is taken to lean as much as this, relative to its bound of `y`.
 const LEVEL: f64 = 1e-12;
+
+/// A highest speed at a cell's start: the squared speed there, the one at its end that it leads to, and whether nothing
+/// at its end lets it begin faster.
+struct Peak {
+    x: f64,
+    y: f64,
+    is_top: bool,
+}
 
 /// A stretch of way. Speeds are squared, (mm/s)², and count along the way's own length.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -62,22 +70,10 @@ pub struct Cell {
     straight: Option<f64>,
     /// The part of what the axes can give that it uses.
     pub share: f64,
+    /// Its highest point of all, once it has been looked for: `x`, and the `y` that it leads to.
+    top: Option<[f64; 2]>,
     strips: [Strip; STRIPS],
     count: usize,
-}
-
-/// A place on a way: how the axes move there for each mm of it, and how that changes.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Edge {
-    slope: Point,
-    bend: Point,
-}
-
-impl Edge {
-    /// The place at this length of a way.
-    pub fn new(way: &Way, s: f64) -> Edge {
-        Edge { slope: way.slope(s), bend: way.bend(s) }
-    }
 }
 
 /// Where in a cell a move ends.
@@ -91,11 +87,10 @@ pub enum Ends {
     At(f64),
 }
 
-/// Which rate of an axis bounds a cell.
-pub type Rate = fn(&AxisLimits) -> f64;
-
 impl Cell {
-    fn new(way: u64, part: [f64; 2]) -> Cell {
+    /// A cell of which nothing is known but where it is.
+    #[inline]
+    pub fn new(way: u64, part: [f64; 2]) -> Cell {
         Cell {
             way,
             part,
@@ -113,57 +108,61 @@ impl Cell {
             moves: [0; 2],
             straight: None,
             share: 1.0,
+            top: None,
             strips: [Strip::default(); STRIPS],
             count: 0,
         }
     }
 
     /// A part of a straight way in this direction.
-    pub fn straight(limits: &Limits, way: u64, part: [f64; 2], along: &Point, rate: Rate) -> Cell {
+    pub fn straight(scale: &Scale, way: u64, part: [f64; 2], along: &Point) -> Cell {
         let mut cell = Cell::new(way, part);
-        let (mut speed, mut acceleration) = (f64::INFINITY, f64::INFINITY);
-        for (limit, along) in limits.axes[..limits.count].iter().zip(along) {
-            let along = along.abs();
-            if along > 0.0 {
-                speed = speed.min(rate(limit) / along);
-                acceleration = acceleration.min(limit.acceleration / along);
-            }
+        let (mut fastest, mut hardest) = (0.0f64, 0.0f64);
+        for (axis, along) in along.iter().enumerate().take(scale.count) {
+            fastest = fastest.max(along.abs() * scale.per_rate[axis]);
+            hardest = hardest.max(along.abs() * scale.per_acceleration[axis]);
         }
-        (cell.axes_allow, cell.rates_allow) = (speed * speed, speed * speed);
-        cell.straight = Some(acceleration);
+        let allows = 1.0 / (fastest * fastest);
+        (cell.axes_allow, cell.rates_allow) = (allows, allows);
+        cell.straight = Some(1.0 / hardest);
         cell
     }
 
     /// A part of a bent way between two of its places, using so much of what the axes can give: between the places they
     /// are asked for more than there.
-    pub fn bent(limits: &Limits, way: u64, part: [f64; 2], edges: [&Edge; 2], rate: Rate, share: f64) -> Cell {
+    pub fn bent(scale: &Scale, way: u64, part: [f64; 2], edges: [&Edge; 2], share: f64) -> Cell {
         let mut cell = Cell::new(way, part);
-        let per_u = 0.5 / cell.length();
-        for axis in 0..limits.count {
-            if edges.iter().all(|edge| edge.slope[axis] == 0.0 && edge.bend[axis] == 0.0) {
+        cell.bend(scale, edges, share);
+        cell
+    }
+
+    /// Bends a new cell.
+    #[inline]
+    pub fn bend(&mut self, scale: &Scale, [start, end]: [&Edge; 2], share: f64) {
+        let per_u = 0.5 / self.length();
+        let (mut fastest, mut hardest) = (0.0f64, 0.0f64);
+        let (mut first, mut last) = (0.0, 0.0);
+        self.share = share;
+        for axis in 0..scale.count.min(AXES) {
+            let (slopes, bends) = ([start.slope[axis], end.slope[axis]], [start.bend[axis], end.bend[axis]]);
+            if slopes == [0.0; 2] && bends == [0.0; 2] {
                 continue;
             }
-            let limit = &limits.axes[axis];
-            let (given, fastest) = (limit.acceleration * share, rate(limit) * share);
-            for (at_end, edge) in edges.into_iter().enumerate() {
-                let (slope, bend) = (edge.slope[axis], edge.bend[axis]);
-                let fastest = fastest / slope;
-                cell.rates_allow = cell.rates_allow.min(fastest * fastest);
-                cell.axes_allow = cell.axes_allow.min(given / bend.abs());
-                let across = slope * per_u;
-                cell.strips[cell.count] = if at_end == 0 {
-                    Strip::new(bend - across, across, given)
-                } else {
-                    Strip::new(-across, bend + across, given)
-                };
-                cell.count += 1;
+            first += slopes[0] * slopes[0];
+            last += slopes[1] * slopes[1];
+            let given = scale.acceleration[axis] * share;
+            fastest = fastest.max(slopes[0].abs().max(slopes[1].abs()) * scale.per_rate[axis]);
+            hardest = hardest.max(bends[0].abs().max(bends[1].abs()) * scale.per_acceleration[axis]);
+            let across = slopes.map(|slope| slope * per_u);
+            if let Some(strips) = self.strips.get_mut(self.count..self.count + 2) {
+                strips[0] = Strip::new(bends[0] - across[0], across[0], given);
+                strips[1] = Strip::new(-across[1], bends[1] + across[1], given);
+                self.count += 2;
             }
         }
-        cell.share = share;
-        cell.axes_allow = cell.axes_allow.min(cell.rates_allow);
-        let [start, end] = edges.map(|edge| dot(&edge.slope, &edge.slope, limits.count));
-        cell.pace = start.max(end);
-        cell
+        self.rates_allow = (share * share) / (fastest * fastest);
+        self.axes_allow = (share / hardest).min(self.rates_allow);
+        self.pace = f64::max(first, last);
     }
 
     /// The rest of a straight one.
@@ -191,31 +190,60 @@ impl Cell {
         self.straight
     }
 
-    /// Finds the highest speeds from which its end is reached with at most `end`.
-    pub fn settle(&mut self, end: f64) {
-        (self.peak, self.leads_to) = self.peak_before(end);
-        self.most = self.peak.min(self.highest());
+    /// Gives it a new feed.
+    pub fn set_feed(&mut self, allows: f64) {
+        (self.feed_allows, self.top) = (allows, None);
     }
 
-    /// The highest squared speed at its start from which its end is reached with at most `end`.
-    pub fn most_before(&self, end: f64) -> f64 {
-        self.peak_before(end).0.min(self.highest())
-    }
-
-    fn peak_before(&self, end: f64) -> (f64, f64) {
+    /// Finds the highest speeds from which its end is reached with at most `end`; true if its own limits hold them, so
+    /// that no higher end would raise them.
+    pub fn settle(&mut self, end: f64) -> bool {
         let allowed = self.allowed();
-        let end = end.min(allowed);
+        let found = self.peak_before(end.min(allowed));
+        (self.peak, self.leads_to) = (found.x, found.y);
+        if found.is_top {
+            self.top = Some([found.x, found.y]);
+        }
+        self.most = self.peak.min(self.highest());
+        found.is_top || self.peak >= self.highest()
+    }
+
+    fn peak_before(&self, end: f64) -> Peak {
         if let Some(acceleration) = self.straight {
-            return (end + 2.0 * acceleration * self.length(), end);
+            return Peak { x: end + 2.0 * acceleration * self.length(), y: end, is_top: false };
+        }
+        if let Some([x, y]) = self.top
+            && y <= end
+        {
+            return Peak { x, y, is_top: true };
         }
         // What is allowed can be driven all along the cell, so it does not bound its very start; or it cannot.
+        let allowed = self.allowed();
         let most = if allowed <= self.axes_allow { f64::MAX } else { allowed };
+        let (mut highest, mut lowest) = (most, 0.0f64);
+        let mut above = Strip { half: most, lean: 0.0 };
+        for strip in &self.strips[..self.count] {
+            let leaning = strip.lean * end;
+            let at = strip.half - leaning;
+            let is_lower = at < highest;
+            highest = if is_lower { at } else { highest };
+            above.half = if is_lower { strip.half } else { above.half };
+            above.lean = if is_lower { strip.lean } else { above.lean };
+            lowest = lowest.max(-strip.half - leaning);
+        }
+        match highest >= lowest {
+            true if above.lean <= 0.0 => Peak { x: highest, y: end, is_top: false },
+            true => self.top_below(end, most, above),
+            false => self.top_of_reach(end, most),
+        }
+    }
+
+    /// The highest point where no speed at the start leads to such an end: it is lowered to one that can be reached.
+    #[inline(never)]
+    fn top_of_reach(&self, end: f64, most: f64) -> Peak {
         let mut y = end;
-        // Where no speed at the start leads to such an end it is lowered to one that can be reached.
-        let mut above = Strip::default();
+        let (mut below, mut above) = self.bounds(y, most);
         for _ in 0..SEARCH_STEPS {
-            let (below, highest) = self.bounds(y, most);
-            above = highest;
             if above.at(y) >= below.at(y) {
                 break;
             }
@@ -224,18 +252,25 @@ impl Cell {
                 break;
             }
             y = met.max(0.0);
+            (below, above) = self.bounds(y, most);
         }
+        self.top_below(y, most, above)
+    }
+
+    /// The highest point at no more than a `y` that can be reached, where this line bounds it from above.
+    #[inline(never)]
+    fn top_below(&self, y: f64, most: f64, mut above: Strip) -> Peak {
         // Entering the next cell more slowly may let this one begin faster.
         if above.lean <= 0.0 || y <= 0.0 {
-            return (above.at(y).max(0.0), y);
+            return Peak { x: above.at(y).max(0.0), y, is_top: true };
         }
-        let mut rising = self.bounds(0.0, most).1;
+        let mut rising = self.above(0.0, most);
         if rising.lean >= 0.0 {
-            return (rising.at(0.0), 0.0);
+            return Peak { x: rising.at(0.0), y: 0.0, is_top: true };
         }
         for _ in 0..SEARCH_STEPS {
             let met = (above.half - rising.half) / (above.lean - rising.lean);
-            let lowest = self.bounds(met, most).1;
+            let lowest = self.above(met, most);
             if lowest == above || lowest == rising {
                 break;
             }
@@ -246,10 +281,25 @@ impl Cell {
             }
         }
         let met = (above.half - rising.half) / (above.lean - rising.lean);
-        (above.at(met).max(0.0), met)
+        Peak { x: above.at(met).max(0.0), y: met, is_top: true }
+    }
+
+    /// The line that bounds `x` from above at `y`, at `most` or less.
+    #[inline]
+    fn above(&self, y: f64, most: f64) -> Strip {
+        let (mut highest, mut above) = (most, Strip { half: most, lean: 0.0 });
+        for strip in &self.strips[..self.count] {
+            let at = strip.at(y);
+            let is_lower = at < highest;
+            highest = if is_lower { at } else { highest };
+            above.half = if is_lower { strip.half } else { above.half };
+            above.lean = if is_lower { strip.lean } else { above.lean };
+        }
+        above
     }
 
     /// The lines that bound `x` from below and above at `y`, above at `most`.
+    #[inline]
     fn bounds(&self, y: f64, mut most: f64) -> (Strip, Strip) {
         let (mut below, mut above) = (Strip::default(), Strip { half: most, lean: 0.0 });
         let mut least = 0.0;
@@ -318,7 +368,8 @@ impl Strip {
             return Strip { half: f64::INFINITY, lean: 0.0 };
         }
         let x_part = if x_part.abs() > y_part.abs() * LEVEL { x_part } else { y_part.abs() * LEVEL };
-        Strip { half: given / x_part.abs(), lean: y_part / x_part }
+        let per_x = 1.0 / x_part;
+        Strip { half: given * per_x.abs(), lean: y_part * per_x }
     }
 
     /// The line's `x` at `y`.

@@ -18,11 +18,11 @@ use meaning::Feed;
 use drive::Drive;
 pub use drive::{Leg, Setpoint};
 
-use crate::cell::{Cell, Edge, Ends, Rate};
+use crate::cell::{Cell, Ends};
 use crate::corner::{Corner, corner, round};
-use crate::limits::{AxisLimits, Limits};
+use crate::limits::{AxisLimits, Limits, Scale};
 use crate::overrides::Overrides;
-use crate::way::{Way, norm};
+use crate::way::{Edges, Way, norm};
 
 /// The longest look-ahead, cells. A program of points 1 µm apart is then seen 16 mm ahead.
 pub const MOST_CELLS: usize = 16_384;
@@ -35,7 +35,7 @@ const LET_PASS: f64 = 0.0008;
 const MORE: f64 = 1.2;
 /// Radians that a cell of an arc turns at most; and where it is driven from rest to rest at changing speeds, which are
 /// lost on by 0.15 of that.
-const WIDEST: f64 = 0.06;
+const WIDEST: f64 = 0.16;
 const FINEST: f64 = 0.004;
 /// Most cells of a single way.
 const MOST_OF_A_WAY: usize = 1600;
@@ -79,6 +79,9 @@ struct Open {
 #[derive(Clone, Debug)]
 pub struct Horizon {
     limits: Limits,
+    /// The same for cutting feeds and for the rapid rate.
+    at_feed: Scale,
+    at_rapid: Scale,
     overrides: Overrides,
     cells: VecDeque<Cell>,
     /// The ways of the cells, and the first one's number.
@@ -92,6 +95,8 @@ pub struct Horizon {
     closed: bool,
     /// Cells whose highest speed is final.
     settled: usize,
+    /// Cells whose speeds follow from those behind them as these are.
+    looked: usize,
     /// So many cells are to be seen before looking again.
     goal: usize,
     drive: Drive,
@@ -102,6 +107,8 @@ impl Horizon {
     pub fn new(limits: Limits) -> Horizon {
         Horizon {
             limits,
+            at_feed: Scale::new(&limits, |axis| axis.max_feed),
+            at_rapid: Scale::new(&limits, |axis| axis.rapid),
             overrides: Overrides::default(),
             cells: VecDeque::new(),
             ways: VecDeque::new(),
@@ -111,6 +118,7 @@ impl Horizon {
             open: None,
             closed: false,
             settled: 0,
+            looked: 0,
             goal: 0,
             drive: Drive::default(),
         }
@@ -123,7 +131,7 @@ impl Horizon {
         self.asked.clear();
         self.open = None;
         self.closed = false;
-        (self.settled, self.goal) = (0, 0);
+        (self.settled, self.looked, self.goal) = (0, 0, 0);
         self.drive = Drive::default();
     }
 
@@ -279,26 +287,40 @@ impl Horizon {
         (pieces, share): (usize, f64),
         moves: [u64; 2],
     ) {
-        let rate = self.rate(moves);
+        let (scale, asked) = (*self.scale(moves), self.slowest(moves));
         if let Way::Line { along, .. } = way {
-            let cell = Cell::straight(&self.limits, number, [from, to], along, rate);
-            return self.push_cell(cell, moves);
+            self.cells.push_back(Cell::straight(&scale, number, [from, to], along));
+            return self.end_cut(moves, asked);
         }
         let step = (to - from) / pieces as f64;
-        let (mut start, mut edge) = (from, Edge::new(way, from));
+        let mut edges = Edges::new(way, from, step);
+        let (mut start, mut edge) = (from, edges.next());
         for piece in 1..=pieces {
             let end = if piece == pieces { to } else { from + step * piece as f64 };
-            let next = Edge::new(way, end);
-            let cell = Cell::bent(&self.limits, number, [start, end], [&edge, &next], rate, share);
-            self.push_cell(cell, moves);
+            let next = edges.next();
+            self.cells.push_back(Cell::new(number, [start, end]));
+            if let Some(cell) = self.cells.back_mut() {
+                cell.bend(&scale, [&edge, &next], share);
+            }
+            self.end_cut(moves, asked);
             (start, edge) = (end, next);
         }
     }
 
-    fn push_cell(&mut self, mut cell: Cell, moves: [u64; 2]) {
-        cell.moves = moves;
-        cell.feed_allows = self.feed_allows(&cell);
-        self.cells.push_back(cell);
+    /// The last cell is of these moves, which ask for this speed.
+    fn end_cut(&mut self, moves: [u64; 2], asked: f64) {
+        if let Some(cell) = self.cells.back_mut() {
+            cell.moves = moves;
+            cell.feed_allows = asked * asked / cell.pace;
+        }
+        if self.overrides.rapid_tells()
+            && let Some(cell) = self.cells.back()
+        {
+            let allows = self.feed_allows(cell, asked);
+            if let Some(cell) = self.cells.back_mut() {
+                cell.set_feed(allows);
+            }
+        }
     }
 
     fn end_move(&mut self, ends: Ends, stops: bool) {
@@ -320,9 +342,9 @@ impl Horizon {
         self.asked.get(mover.checked_sub(self.first_move)? as usize)
     }
 
-    /// Which rate of an axis bounds what lies on two moves.
-    fn rate(&self, moves: [u64; 2]) -> Rate {
-        if moves.into_iter().all(|mover| self.is_at_rapid(mover)) { |axis| axis.rapid } else { |axis| axis.max_feed }
+    /// The limits that bound what lies on two moves.
+    fn scale(&self, moves: [u64; 2]) -> &Scale {
+        if moves.into_iter().all(|mover| self.is_at_rapid(mover)) { &self.at_rapid } else { &self.at_feed }
     }
 
     /// The speed that a move asks for along its way without overrides, mm/s.
@@ -341,17 +363,17 @@ impl Horizon {
         self.overrides.actual(&asked.feed) / 60.0 * asked.share
     }
 
-    /// The squared speed that the feeds of a cell's moves allow, overrides counted in.
-    fn feed_allows(&self, cell: &Cell) -> f64 {
-        let mut slowest = f64::INFINITY;
-        for mover in cell.moves {
-            let Some(asked) = self.asked(mover) else { continue };
-            slowest = slowest.min(self.asks(asked));
-        }
-        let mut allows = slowest * slowest / cell.pace;
+    /// The slowest speed that one of these moves asks for along its way, mm/s, overrides counted in.
+    fn slowest(&self, moves: [u64; 2]) -> f64 {
+        let asks = moves.map(|mover| self.asked(mover).map_or(f64::INFINITY, |asked| self.asks(asked)));
+        asks[0].min(asks[1])
+    }
+
+    /// The squared speed that the feeds of a cell's moves allow, overrides counted in, of which the slowest is `asked`.
+    fn feed_allows(&self, cell: &Cell, asked: f64) -> f64 {
+        let mut allows = asked * asked / cell.pace;
         let overrides = &self.overrides;
-        let tells = overrides.rapid != 1.0 || overrides.rapid_limit < f64::INFINITY || overrides.dry_run.is_some();
-        if tells && cell.moves.into_iter().any(|mover| self.is_at_rapid(mover)) {
+        if overrides.rapid_tells() && cell.moves.into_iter().any(|mover| self.is_at_rapid(mover)) {
             let rate = |axis: &AxisLimits| match overrides.dry_run {
                 Some(_) => axis.max_feed,
                 None => overrides.rapid(axis.rapid),
@@ -381,8 +403,9 @@ impl Horizon {
         self.overrides = overrides;
         self.cut_here();
         for index in 0..self.cells.len() {
-            let allows = self.feed_allows(&self.cells[index]);
-            self.cells[index].feed_allows = allows;
+            let cell = &self.cells[index];
+            let allows = self.feed_allows(cell, self.slowest(cell.moves));
+            self.cells[index].set_feed(allows);
         }
         self.settled = 0;
         self.look_again();

@@ -1,6 +1,6 @@
 //! What each axis can do, and how the control leads the tool from one block into the next.
 
-use base::AXES;
+use base::{AXES, Point};
 
 /// The limits of one axis, in mm (degrees) and seconds.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -63,6 +63,31 @@ impl Limits {
     /// The jerk of an axis as its model keeps to it, mm/s³.
     pub fn jerk(&self, axis: usize) -> f64 {
         if self.model == Model::Jerk { self.axes[axis].jerk } else { f64::INFINITY }
+    }
+}
+
+/// The limits as the cells of a way want them, so that little is divided.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Scale {
+    /// Each axis' acceleration, mm/s².
+    pub acceleration: Point,
+    /// One by it.
+    pub per_acceleration: Point,
+    /// One by each axis' rate, mm/s.
+    pub per_rate: Point,
+    /// How many axes there are.
+    pub count: usize,
+}
+
+impl Scale {
+    /// The limits with one of the axes' rates.
+    pub fn new(limits: &Limits, rate: fn(&AxisLimits) -> f64) -> Scale {
+        let mut scale = Scale { count: limits.count.min(AXES), ..Scale::default() };
+        for (axis, limit) in limits.axes.iter().enumerate().take(limits.count) {
+            scale.acceleration[axis] = limit.acceleration;
+            (scale.per_acceleration[axis], scale.per_rate[axis]) = (1.0 / limit.acceleration, 1.0 / rate(limit));
+        }
+        scale
     }
 }
 

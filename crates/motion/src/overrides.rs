@@ -57,6 +57,11 @@ impl Overrides {
         }
     }
 
+    /// True if a cut at the rapid rate is not at the axes' own.
+    pub(crate) fn rapid_tells(&self) -> bool {
+        self.rapid != 1.0 || self.rapid_limit < f64::INFINITY || self.dry_run.is_some()
+    }
+
     /// The rapid rate of an axis, mm/s, of its own `rate`.
     pub fn rapid(&self, rate: f64) -> f64 {
         (rate * self.rapid).min(self.rapid_limit)

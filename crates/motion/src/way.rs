@@ -35,6 +35,72 @@ pub enum Way {
     },
 }
 
+/// A place on a way: how the axes move there for each mm of it, and how that changes.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Edge {
+    /// `q'`.
+    pub slope: Point,
+    /// `q''`.
+    pub bend: Point,
+}
+
+impl Edge {
+    /// The place at this length of a way.
+    pub fn new(way: &Way, s: f64) -> Edge {
+        Edges::new(way, s, 0.0).next()
+    }
+}
+
+/// Places on a way, one by one, evenly apart.
+pub struct Edges<'w> {
+    way: &'w Way,
+    s: f64,
+    step: f64,
+    /// Of an arc: the direction of its spoke, and by how much that turns at each step, as cosine and sine.
+    spoke: [f64; 2],
+    turn: [f64; 2],
+    /// How far each axis moves for each mm of it that moves evenly.
+    even: Point,
+}
+
+impl<'w> Edges<'w> {
+    /// Places so far apart, the first one at this length of a way.
+    pub fn new(way: &'w Way, s: f64, step: f64) -> Edges<'w> {
+        let mut edges = Edges { way, s, step, spoke: [1.0, 0.0], turn: [1.0, 0.0], even: [0.0; AXES] };
+        if let Way::Arc { arc, length } = way {
+            let per_length = 1.0 / length;
+            let angles = [arc.start_angle + arc.sweep * s * per_length, arc.sweep * step * per_length];
+            [edges.spoke, edges.turn] = angles.map(|angle| {
+                let (sin, cos) = libm::sincos(angle);
+                [cos, sin]
+            });
+            edges.even = std::array::from_fn(|axis| (arc.to[axis] - arc.from[axis]) * per_length);
+        }
+        edges
+    }
+
+    /// The next one.
+    pub fn next(&mut self) -> Edge {
+        let (way, s) = (self.way, self.s);
+        self.s += self.step;
+        let Way::Arc { arc, length } = way else { return Edge { slope: way.slope(s), bend: way.bend(s) } };
+        let ([cos, sin], [turn_cos, turn_sin]) = (self.spoke, self.turn);
+        self.spoke = [cos * turn_cos - sin * turn_sin, sin * turn_cos + cos * turn_sin];
+        let per_length = 1.0 / length;
+        let growth = (arc.radius[1] - arc.radius[0]) * per_length;
+        let turned = arc.sweep * per_length;
+        let radius = arc.radius[0] + growth * s;
+        let [u, v] = plane(arc);
+        let mut edge = Edge { slope: self.even, bend: [0.0; AXES] };
+        edge.slope[u] = growth * cos - radius * turned * sin;
+        edge.slope[v] = growth * sin + radius * turned * cos;
+        let (aside, towards) = (2.0 * growth * turned, radius * turned * turned);
+        edge.bend[u] = -aside * sin - towards * cos;
+        edge.bend[v] = aside * cos - towards * sin;
+        edge
+    }
+}
+
 impl Way {
     /// The straight way between two points.
     pub fn line(from: &Point, to: &Point, count: usize) -> Way {
@@ -96,14 +162,7 @@ impl Way {
     pub fn slope(&self, s: f64) -> Point {
         match self {
             Way::Line { along, .. } => *along,
-            Way::Arc { arc, length } => {
-                let mut slope: Point = std::array::from_fn(|axis| (arc.to[axis] - arc.from[axis]) / length);
-                let (growth, radius, [cos, sin]) = spoke(arc, s / length);
-                let [u, v] = plane(arc);
-                slope[u] = (growth * cos - radius * arc.sweep * sin) / length;
-                slope[v] = (growth * sin + radius * arc.sweep * cos) / length;
-                slope
-            }
+            Way::Arc { .. } => Edge::new(self, s).slope,
             Way::Blend { terms: [_, b, c, d], .. } => {
                 std::array::from_fn(|axis| b[axis] + s * (2.0 * c[axis] + 3.0 * s * d[axis]))
             }
@@ -114,16 +173,7 @@ impl Way {
     pub fn bend(&self, s: f64) -> Point {
         match self {
             Way::Line { .. } => [0.0; AXES],
-            Way::Arc { arc, length } => {
-                let mut bend = [0.0; AXES];
-                let (growth, radius, [cos, sin]) = spoke(arc, s / length);
-                let [u, v] = plane(arc);
-                let (turned, towards) = (2.0 * growth * arc.sweep, radius * arc.sweep * arc.sweep);
-                let square = length * length;
-                bend[u] = (-turned * sin - towards * cos) / square;
-                bend[v] = (turned * cos - towards * sin) / square;
-                bend
-            }
+            Way::Arc { .. } => Edge::new(self, s).bend,
             Way::Blend { terms: [_, _, c, d], .. } => std::array::from_fn(|axis| 2.0 * c[axis] + 6.0 * s * d[axis]),
         }
     }

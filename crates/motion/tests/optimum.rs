@@ -76,6 +76,23 @@ fn contour(f: f64) -> Vec<Move> {
     ]
 }
 
+/// Round a square with rounded corners, lines and arcs by turns.
+fn rounded_square(f: f64) -> Vec<Move> {
+    let mut moves = Vec::new();
+    for side in 0..8 {
+        let turned = |[x, y]: [f64; 2]| match side % 4 {
+            0 => [x, y, 0.0],
+            1 => [-y, x, 0.0],
+            2 => [-x, -y, 0.0],
+            _ => [y, -x, 0.0],
+        };
+        let [u, v, _] = turned([5.0, -5.0]);
+        moves.push(line(turned([-5.0, -8.0]), turned([5.0, -8.0]), f));
+        moves.push(arc(turned([5.0, -8.0]), turned([8.0, -5.0]), [u, v], false, f));
+    }
+    moves
+}
+
 fn rotary() -> Vec<Move> {
     let five = |values: [f64; 5]| -> Point {
         let mut point = [0.0; base::AXES];
@@ -130,6 +147,9 @@ fn paths() -> (Vec<Path>, usize) {
         ("contour of lines and arcs", even, contour(6000.0)),
         ("contour, F60000, tolerance 0.05", alike(0.05), contour(60_000.0)),
         ("contour, unlike axes", uneven, contour(6000.0)),
+        ("rounded square", even, rounded_square(6000.0)),
+        ("rounded square, unlike axes", uneven, rounded_square(6000.0)),
+        ("rounded square, F1000", even, rounded_square(1000.0)),
         ("line into an arc and out", even, contour(3000.0)[..3].to_vec()),
         ("five axes, two of them rotary", uneven, rotary()),
     ];

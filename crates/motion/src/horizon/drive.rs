@@ -2,12 +2,15 @@
 
 use base::{AXES, Point};
 
-use super::Horizon;
-use crate::cell::{Cell, Edge, Ends};
-use crate::way::Way;
+use super::{Horizon, LET_PASS, share_of};
+use crate::cell::{Cell, Ends};
+use crate::way::{Edge, Way};
 
 /// A rest of way shorter than this is none, mm.
 const NOTHING_LEFT: f64 = 1e-9;
+
+/// A cell that is cut in mid-path is cut into so many at most.
+const MOST_PIECES: usize = 12;
 
 /// A stretch along a way in which the acceleration is constant or, under model `jerk`, changes steadily.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -96,23 +99,21 @@ impl Horizon {
     pub fn drive_move(&mut self, mut leg: impl FnMut(&Way, f64, &Leg)) -> f64 {
         let mut seconds = 0.0;
         while self.begin_cell() {
-            let Some(legs) = self.drive.legs else { break };
-            while self.drive.leg < legs.count {
-                let next = &legs.legs[self.drive.leg];
+            while let Some(next) = self.leg() {
                 let rest = next.seconds - self.drive.spent;
                 let (s, speed) = next.at(self.drive.spent);
                 if let Some((cell, way)) = self.cells.front().and_then(|cell| Some((cell, self.way(cell.way)?))) {
-                    leg(way, cell.axes_allow, &Leg { s, speed, seconds: rest, ..*next });
+                    leg(way, cell.axes_allow, &Leg { s, speed, seconds: rest, ..next });
                 }
                 seconds += rest;
                 self.drive.leg += 1;
                 self.drive.spent = 0.0;
-                if legs.border == Some(self.drive.leg) {
+                if self.is_at_border() {
                     self.drop_move();
                     return seconds;
                 }
             }
-            if legs.end.is_none() || self.end_cell() {
+            if !self.is_to_end() || self.end_cell() {
                 return seconds;
             }
         }
@@ -123,9 +124,8 @@ impl Horizon {
     /// ended.
     pub fn drive_for(&mut self, mut seconds: f64) -> (f64, bool) {
         while self.begin_cell() {
-            let Some(legs) = self.drive.legs else { break };
-            while self.drive.leg < legs.count {
-                let rest = legs.legs[self.drive.leg].seconds - self.drive.spent;
+            while let Some(next) = self.leg() {
+                let rest = next.seconds - self.drive.spent;
                 if rest > seconds {
                     self.drive.spent += seconds;
                     return (0.0, false);
@@ -133,12 +133,12 @@ impl Horizon {
                 seconds -= rest;
                 self.drive.leg += 1;
                 self.drive.spent = 0.0;
-                if legs.border == Some(self.drive.leg) {
+                if self.is_at_border() {
                     self.drop_move();
                     return (seconds, true);
                 }
             }
-            if legs.end.is_none() {
+            if !self.is_to_end() {
                 // Held: the axes stand.
                 return (0.0, false);
             }
@@ -147,6 +147,22 @@ impl Horizon {
             }
         }
         (seconds, false)
+    }
+
+    /// The leg under way; `None` behind the last one of the first cell.
+    fn leg(&self) -> Option<Leg> {
+        let legs = self.drive.legs.as_ref()?;
+        legs.legs[..legs.count].get(self.drive.leg).copied()
+    }
+
+    /// True if a move ends before the leg under way.
+    fn is_at_border(&self) -> bool {
+        self.drive.legs.as_ref().is_some_and(|legs| legs.border == Some(self.drive.leg))
+    }
+
+    /// True if the first cell is driven to its end.
+    fn is_to_end(&self) -> bool {
+        self.drive.legs.as_ref().is_some_and(|legs| legs.end.is_some())
     }
 
     /// Where the axes are now, and how fast; `None` if nothing is under way.
@@ -237,27 +253,46 @@ impl Horizon {
             return;
         }
         (self.drive.leg, self.drive.spent, self.drive.x) = (0, 0.0, speed * speed);
-        let Some(cell) = self.cells.pop_front() else { return };
-        let Some(way) = self.way(cell.way) else { return };
+        let Some(mut cell) = self.cells.pop_front() else { return };
         let start = s.clamp(cell.part[0], cell.part[1] - NOTHING_LEFT / 2.0);
-        let mut new = match cell.acceleration() {
-            Some(_) => cell.from(start),
-            None => {
-                let edges = [start, cell.part[1]].map(|s| Edge::new(way, s));
-                let rate = self.rate(cell.moves);
-                // What a cell is uneven by goes with the square of its length.
-                let rest = (cell.part[1] - start) / cell.length();
-                let share = 1.0 - (1.0 - cell.share) * rest * rest;
-                Cell::bent(&self.limits, cell.way, [start, cell.part[1]], [&edges[0], &edges[1]], rate, share)
-            }
-        };
-        new.ends = match cell.ends {
+        cell.ends = match cell.ends {
             Ends::At(_) if is_passed => Ends::Not,
             Ends::At(border) => Ends::At(border.max(start)),
             other => other,
         };
-        (new.moves, new.feed_allows, new.gain, new.stops) = (cell.moves, cell.feed_allows, cell.gain, cell.stops);
-        self.cells.push_front(new);
+        self.push_rest(&cell, start);
+    }
+
+    /// Puts the rest of a cell in front of the others.
+    fn push_rest(&mut self, cell: &Cell, start: f64) {
+        let Some(way) = self.way(cell.way).copied() else { return };
+        if cell.acceleration().is_some() {
+            return self.cells.push_front(cell.from(start));
+        }
+        // In its middle the axes may be asked for more than at its ends; what it is uneven by goes with the square of its
+        // length, so the rest is cut until that does not matter.
+        let length = cell.part[1] - start;
+        let uneven =
+            if cell.share < 1.0 { 1.0 + LET_PASS - cell.share } else { 0.0 } * (length / cell.length()).powi(2);
+        let pieces = ((uneven / LET_PASS).sqrt().ceil() as usize).clamp(1, MOST_PIECES);
+        let share = share_of(uneven / (pieces * pieces) as f64);
+        for piece in (0..pieces).rev() {
+            let is_last = piece + 1 == pieces;
+            let [from, to] = [piece, piece + 1].map(|piece| start + length * piece as f64 / pieces as f64);
+            let part = [from, if is_last { cell.part[1] } else { to }];
+            let edges = part.map(|s| Edge::new(&way, s));
+            let mut rest = Cell::bent(self.scale(cell.moves), cell.way, part, [&edges[0], &edges[1]], share);
+            rest.ends = match cell.ends {
+                Ends::At(border) if border <= part[1] && (border > from || piece == 0) => Ends::At(border),
+                Ends::AtEnd if is_last => Ends::AtEnd,
+                _ => Ends::Not,
+            };
+            (rest.moves, rest.feed_allows) = (cell.moves, cell.feed_allows);
+            if is_last {
+                (rest.gain, rest.stops) = (cell.gain, cell.stops);
+            }
+            self.cells.push_front(rest);
+        }
     }
 
     /// True if in the first cell a move has ended already.
@@ -287,10 +322,13 @@ impl Horizon {
 
     /// Leaves the first cell; true if a move ends with it.
     fn end_cell(&mut self) -> bool {
-        let Some(cell) = self.cells.pop_front() else { return false };
+        let Some(cell) = self.cells.front() else { return false };
+        let (stops, gain, ends) = (cell.stops, cell.gain, cell.ends == Ends::AtEnd);
+        self.cells.pop_front();
         let x = self.drive.legs.take().and_then(|legs| legs.end).unwrap_or(0.0);
-        self.drive.x = if cell.stops { 0.0 } else { x / cell.gain };
+        self.drive.x = if stops { 0.0 } else { x / gain };
         self.settled = self.settled.saturating_sub(1);
+        self.looked = self.looked.saturating_sub(1);
         self.goal = self.goal.saturating_sub(1);
         let open = self.open.as_ref().map_or(u64::MAX, |open| open.number);
         let needed = self.cells.front().map_or(open, |next| next.way);
@@ -300,7 +338,6 @@ impl Horizon {
         if self.cells.is_empty() && self.open.is_none() {
             self.closed = false;
         }
-        let ends = cell.ends == Ends::AtEnd;
         if ends {
             self.drop_move();
         }
@@ -323,21 +360,24 @@ fn speed_up_bent(cell: &Cell, x: f64, end: f64) -> Legs {
     let (start, length) = (cell.part[0], cell.length());
     let (allowed, peak, leads_to) = (cell.allowed(), cell.peak, cell.leads_to);
     let end = end.min(allowed);
-    let [low, high] = cell.reach(x);
     let mut legs = Legs::default();
     // From a fraction of the cell to another one, at these squared speeds.
+    let per_length = 0.5 / length;
     let mut leg = |[from, to]: [f64; 2], [x, y]: [f64; 2], change: f64| {
-        let way = (to - from) * length;
-        let [first, last] = [x, y].map(|x| x.max(0.0).sqrt());
-        let acceleration = change / (2.0 * length);
-        legs.push(Leg {
-            s: start + from * length,
-            speed: first,
-            acceleration,
-            seconds: 2.0 * way / (first + last),
-            ..Leg::default()
-        });
+        if to > from {
+            let [speed, last] = [x, y].map(|x| x.max(0.0).sqrt());
+            let seconds = 2.0 * (to - from) * length / (speed + last);
+            let (s, acceleration) = (start + from * length, change * per_length);
+            legs.push(Leg { s, speed, acceleration, seconds, ..Leg::default() });
+        }
     };
+    // On the falling line already.
+    if x == peak && leads_to == end && peak <= allowed {
+        leg([0.0, 1.0], [x, end], end - x);
+        legs.end = Some(end);
+        return legs;
+    }
+    let [low, high] = cell.reach(x);
     let is_over = x > peak.min(allowed);
     let met = if is_over { meets_falling(cell, x, low) } else { meets_rising(cell, x, high, end) };
     let Some((met, hard)) = met else {

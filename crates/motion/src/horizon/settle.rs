@@ -28,7 +28,7 @@ impl Horizon {
 
     /// The cells have changed, so their speeds are to be found anew.
     pub(super) fn look_again(&mut self) {
-        self.goal = 0;
+        (self.goal, self.looked) = (0, 0);
         self.settle();
     }
 
@@ -58,19 +58,25 @@ impl Horizon {
     fn settle(&mut self) {
         let seen = self.cells.len();
         let mut final_from = if self.closed { seen } else { self.settled };
+        let mut entered_at = 0.0;
         // The last final one again: its own speed stays, but it may now lead to a higher one.
-        for index in (self.settled.saturating_sub(1)..seen).rev() {
-            let end = self.end_of(index);
-            let cell = &mut self.cells[index];
-            cell.settle(end);
-            if final_from <= index {
-                // Its own limits hold it, or a stop: not where the look-ahead ends.
-                let is_held = cell.stops || cell.most >= cell.highest() || cell.most >= cell.most_before(f64::INFINITY);
-                if is_held {
-                    final_from = index + 1;
-                }
+        let from = self.settled.saturating_sub(1);
+        for (index, cell) in self.cells.range_mut(from..).enumerate().rev() {
+            let index = from + index;
+            let end = if cell.stops { 0.0 } else { entered_at * cell.gain };
+            let before = [cell.peak, cell.leads_to];
+            let is_held = cell.settle(end);
+            entered_at = cell.most;
+            // Its own limits hold it, or a stop: not where the look-ahead ends.
+            if final_from <= index && (cell.stops || is_held) {
+                final_from = index + 1;
+            }
+            // What lies before it was found with the same speed.
+            if index < self.looked && before == [cell.peak, cell.leads_to] {
+                break;
             }
         }
+        self.looked = seen;
         self.settled = final_from.max(self.settled);
     }
 }
