@@ -272,8 +272,8 @@ impl Horizon {
         // In its middle the axes may be asked for more than at its ends; what it is uneven by goes with the square of its
         // length, so the rest is cut until that does not matter.
         let length = cell.part[1] - start;
-        let uneven =
-            if cell.share < 1.0 { 1.0 + LET_PASS - cell.share } else { 0.0 } * (length / cell.length()).powi(2);
+        let left = length / cell.length();
+        let uneven = if cell.share < 1.0 { (1.0 + LET_PASS - cell.share) * left * left } else { 0.0 };
         let pieces = ((uneven / LET_PASS).sqrt().ceil() as usize).clamp(1, MOST_PIECES);
         let share = share_of(uneven / (pieces * pieces) as f64);
         for piece in (0..pieces).rev() {
