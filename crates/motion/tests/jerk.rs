@@ -305,12 +305,17 @@ fn walk(limits: &Limits, moves: &[Move], dice: &mut Dice, meddle: bool) -> (usiz
             horizon.hold(false);
             horizon.set_overrides(Overrides::default());
         } else if dice.throw() < 0.01 {
-            match (dice.throw() * 5.0) as u32 {
+            match (dice.throw() * 6.0) as u32 {
                 4 => {
                     // What follows is shown anew behind the move at whose end the axes stand.
                     let left = horizon.stand_soon();
                     assert!(horizon.is_closed() || left == 0);
                     next = moves[ended + left..].iter();
+                }
+                5 => {
+                    // Faster than any feed override.
+                    let dry_run = Some(dice.around(50.0, 60_000.0));
+                    horizon.set_overrides(Overrides { dry_run, ..Overrides::default() });
                 }
                 0 => {
                     held = !held;
