@@ -4,7 +4,7 @@
     benches/before_after.py BEFORE [RUNS]      BEFORE is the older program; 9 runs if not said otherwise; exit code 1 if
                                                the present one needs more than LIMIT times the CPU time
 
-The older program: git worktree add /tmp/before COMMIT && make -C /tmp/before build
+The older program: git worktree add /tmp/before COMMIT && make -C /tmp/before fast
 """
 import statistics
 import sys

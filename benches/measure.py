@@ -11,7 +11,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-PROGRAM = Path(os.environ.get("CARGO_TARGET_DIR", "target")) / "release" / "cyclestart"
+PROGRAM = Path(os.environ.get("CARGO_TARGET_DIR", "target")) / "fast" / "release" / "cyclestart"
 LOOK_EVERY_S = 0.005
 
 
@@ -115,6 +115,5 @@ def beside_peer(name: str, write, bars: Bars, runs: int, arguments: list[str]) -
 
 
 def needs_program() -> None:
-    """Ends with a sentence if the program has not been built."""
-    if not PROGRAM.is_file():
-        raise SystemExit(f"{PROGRAM} is not there: run `make build` first")
+    """Builds the program as `make fast` does, if it is not there or a source has changed since."""
+    subprocess.run([sys.executable, str(Path(__file__).with_name("fast.py")), "--quiet"], check=True)

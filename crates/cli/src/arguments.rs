@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use diff::{DiffArguments, DiffFormat};
-pub use plot::{LayerArgument, PlotArguments};
+pub use plot::{LayerArgument, PlotArguments, ViewArgument};
 
 /// Executes part programs exactly as the machining-centre controls they were written for would.
 #[derive(Parser, Debug)]
@@ -53,7 +53,7 @@ pub enum Command {
     Operate(OperateArguments),
     /// Draw the tool path as SVG or PNG
     #[command(
-        after_help = "Examples:\n  cyclestart plot part.nc -o part.svg\n  cyclestart plot part.nc --layers programmed,compensated,tool -o part.svg"
+        after_help = "Examples:\n  cyclestart plot part.nc -o part.svg\n  cyclestart plot part.nc --layers programmed,compensated,tool -o part.svg\n  cyclestart plot part.nc --layers speed --view plan -o speed.svg\n  cyclestart plot part.nc --layers programmed,actual --around 20,0,1 -o corner.svg\n  cyclestart plot part.nc --chart -o chart.svg"
     )]
     Plot(PlotArguments),
     /// Read images of punched tape (EIA RS-244, ISO 840) to text, and punch text

@@ -8,10 +8,8 @@ use crate::jerk::JerkHorizon;
 use crate::limits::{Limits, Model};
 use crate::overrides::Overrides;
 use crate::planner::Pace;
+use crate::sampling::sample_evenly;
 use crate::way::Way;
-
-/// Setpoints that are kept of one spell of the old controls' motion.
-const KEPT_OF_A_SPELL: u32 = 64;
 
 /// A planner of one of the models.
 #[derive(Clone, Debug)]
@@ -215,7 +213,7 @@ fn drive_on_the_way(
             allowed = allowed.min(axes_allow.sqrt() as f32);
         }
         if let Some(kept) = &mut kept {
-            kept.stretches.push(crate::Stretch { way: *way, leg: *leg });
+            kept.stretches.push(crate::Stretch { way: *way, leg: *leg, allowed: axes_allow.sqrt() });
         }
     });
     (seconds, Pace { allowed: allowed.min(asked as f32), ..pace.unwrap_or_default() })
@@ -227,10 +225,8 @@ fn drive_beside_it(classic: &mut Interpolator, asked: f64, mut kept: Option<&mut
     let seconds = classic.drive_move(|spell| {
         pace.top = pace.top.max(spell.speed as f32);
         if let Some(kept) = &mut kept {
-            for part in 0..=KEPT_OF_A_SPELL {
-                let at = spell.seconds * f64::from(part) / f64::from(KEPT_OF_A_SPELL);
-                kept.samples.push(Sample { seconds: before + at, setpoint: spell.at(at) });
-            }
+            let keep = |at, setpoint| kept.samples.push(Sample { seconds: before + at, setpoint });
+            sample_evenly(spell.seconds, |at| spell.at(at), keep);
         }
         before += spell.seconds;
     });

@@ -17,6 +17,7 @@ mod overrides;
 mod planner;
 mod positioning;
 mod profile;
+mod sampling;
 mod scurve;
 mod stage;
 mod stroke;

@@ -50,6 +50,8 @@ pub struct Stretch {
     pub way: Way,
     /// What is driven of it.
     pub leg: Leg,
+    /// The speed that the axes allow there, mm/s; infinite where it is not known.
+    pub allowed: f64,
 }
 
 /// The moves shown and not yet executed.

@@ -219,19 +219,23 @@ impl Motion {
         if self.is_joined() {
             return;
         }
+        self.positioning = Some(self.positioning(from, to));
+    }
+
+    /// Positioning from here to there that has not begun.
+    pub(crate) fn positioning(&self, from: &Point, to: &Point) -> Positioning {
         let (limits, overrides) = (&self.limits, &self.overrides);
-        self.positioning = Some(if limits.straight_rapid {
+        if limits.straight_rapid {
             let length = distance(from, to, limits.count);
             let (rate, acceleration) = along(limits, from, to, length, |axis| overrides.rapid(axis.rapid));
             let jerk = jerk_along(limits, from, to, length);
-            Positioning::straight(from, to, length, [rate, acceleration, jerk])
-        } else {
-            let of = |axis: usize| {
-                let own = &limits.axes[axis];
-                [overrides.rapid(own.rapid), own.acceleration, limits.jerk(axis)]
-            };
-            Positioning::by_axes(from, to, of, limits.count)
-        });
+            return Positioning::straight(from, to, length, [rate, acceleration, jerk]);
+        }
+        let of = |axis: usize| {
+            let own = &limits.axes[axis];
+            [overrides.rapid(own.rapid), own.acceleration, limits.jerk(axis)]
+        };
+        Positioning::by_axes(from, to, of, limits.count)
     }
 
     /// Drives the present move for a time, s: what is left of it, and whether the move has ended.

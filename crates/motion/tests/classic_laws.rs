@@ -1,9 +1,12 @@
 //! Model `classic`: what holds on every path, whatever the operator does.
+//!
+//! The environment can ask for more random programs: PROGRAMS=10000.
 
 mod course;
 mod old_control;
 
 use base::AXES;
+use course::random::samples_asked;
 use course::{arc, limits, line};
 use motion::{Classic, Interpolator, Limits, Move, Overrides, Setpoint, SpellKind};
 use old_control::{Step, by_moves, run};
@@ -137,7 +140,7 @@ fn by_hand<'s>(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig::with_cases(samples_asked(300) as u32))]
 
     #[test]
     fn times_and_places_do_not_depend_on_the_period(

@@ -4,10 +4,8 @@
 
 mod course;
 
-use std::panic::AssertUnwindSafe;
-
 use course::program::{Program, program};
-use course::random::{Random, seeds_asked};
+use course::random::{Random, over_seeds};
 use course::watch::{Act, move_times, watch};
 use motion::Overrides;
 
@@ -15,24 +13,9 @@ const PROGRAMS: u64 = 200;
 /// How far two ways of driving may differ in the time of a whole program, relative: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Runs a check over many programs and tells of the first ones that fail, and of how many do.
+/// Runs a check over many programs.
 fn over_programs(check: impl Fn(u64, &Program) -> Result<(), String>) {
-    let seeds = seeds_asked(PROGRAMS);
-    let mut wrong = Vec::new();
-    for &seed in &seeds {
-        let program = program(seed);
-        let checked = std::panic::catch_unwind(AssertUnwindSafe(|| check(seed, &program)));
-        if let Err(what) = checked.unwrap_or_else(|_| Err("it panics".to_owned())) {
-            wrong.push(format!("program {seed}: {what}"));
-        }
-    }
-    assert!(
-        wrong.is_empty(),
-        "{} of {} programs:\n{}",
-        wrong.len(),
-        seeds.len(),
-        wrong[..wrong.len().min(25)].join("\n")
-    );
+    over_seeds(PROGRAMS, |seed| check(seed, &program(seed)));
 }
 
 fn agree(one: &[f64], other: &[f64], what: &str) -> Result<(), String> {

@@ -80,6 +80,14 @@ impl Curve {
         }
     }
 
+    /// The fraction of the sweep at which the curve's angle is that of a point, of several turns the one nearest to another.
+    pub fn nearest(&self, point: [f64; 3], near: f64) -> f64 {
+        let [first, second, _] = self.plane.axes();
+        let angle = libm::atan2(point[second] - self.center[1], point[first] - self.center[0]) - self.start_rad;
+        let turns = ((near * self.sweep_rad - angle) / TAU).round();
+        ((angle + turns * TAU) / self.sweep_rad).clamp(0.0, 1.0)
+    }
+
     /// The greater of the two radii in mm.
     pub fn radius(&self) -> f64 {
         self.start_radius.max(self.end_radius)

@@ -1,16 +1,18 @@
 //! The layers beside the path in a view: what the tool sweeps, the programmed contour, the tool, what is refused.
 
 use crate::canvas::{Canvas, short};
-use crate::colour::{ALARM, CONTOUR, SWEPT, TOOL};
-use crate::ink::Ink;
+use crate::colour::{ALARM, CONTOUR, DRIVEN, SWEPT, TOOL};
+use crate::ink::{FEED_WEIGHT, Ink};
 use crate::layers::DrawnLayers;
 use crate::path_data::PathData;
 use crate::piece::Piece;
-use crate::strokes::{chord_tolerance, draw_feed};
+use crate::stroke::Kind;
+use crate::strokes::{chord_tolerance, draw_feed, draw_rapids, seen};
 use crate::view::View;
 
-/// The weights of the contour, of the tool and of a refused way, in sheet units.
+/// The weights of the contour, of the driven path, of the tool and of a refused way, in sheet units.
 pub(crate) const CONTOUR_WEIGHT: f64 = 1.3;
+pub(crate) const DRIVEN_WEIGHT: f64 = 2.6;
 pub(crate) const TOOL_WEIGHT: f64 = 0.9;
 pub(crate) const REFUSED_WEIGHT: f64 = 3.4;
 
@@ -29,7 +31,7 @@ pub(crate) fn draw_swept(canvas: &mut Canvas, view: &View, layers: &DrawnLayers)
     for radius in radii {
         let ways = layers.swept.iter().filter(|piece| piece.feed == radius);
         canvas.open(&format!("stroke-width=\"{}\"", short(2.0 * radius * view.scale)));
-        draw_ways(canvas, view, &ways.copied().collect::<Vec<_>>());
+        draw_ways(canvas, view, ways);
         canvas.close();
     }
     canvas.close();
@@ -43,7 +45,22 @@ pub(crate) fn draw_contour(canvas: &mut Canvas, view: &View, layers: &DrawnLayer
     let weight = short(ink.feed_weight.min(CONTOUR_WEIGHT));
     let look = format!("stroke=\"{CONTOUR}\" stroke-width=\"{weight}\" stroke-linecap=\"round\"");
     canvas.open_clipped(&view.panel, &look);
-    draw_ways(canvas, view, &layers.programmed);
+    draw_ways(canvas, view, layers.programmed.iter());
+    canvas.close();
+}
+
+/// Draws the path that is driven, wider than the programmed one, which lies on it.
+pub(crate) fn draw_driven(canvas: &mut Canvas, view: &View, layers: &DrawnLayers) {
+    if layers.driven.is_empty() {
+        return;
+    }
+    let ink = Ink::measure(view, &layers.driven);
+    draw_rapids(canvas, view, &layers.driven, &ink);
+    let weight = short(ink.feed_weight * DRIVEN_WEIGHT / FEED_WEIGHT);
+    let look =
+        format!("stroke=\"{DRIVEN}\" stroke-width=\"{weight}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
+    canvas.open_clipped(&view.panel, &look);
+    draw_ways(canvas, view, layers.driven.iter().filter(|piece| piece.kind == Kind::Feed));
     canvas.close();
 }
 
@@ -67,7 +84,7 @@ pub(crate) fn draw_refused(canvas: &mut Canvas, view: &View, layers: &DrawnLayer
     }
     canvas.open_clipped(&view.panel, &format!("stroke=\"{ALARM}\" stroke-linecap=\"round\""));
     canvas.open(&format!("stroke-width=\"{REFUSED_WEIGHT}\""));
-    draw_ways(canvas, view, &layers.refused.iter().map(|refused| refused.way).collect::<Vec<_>>());
+    draw_ways(canvas, view, layers.refused.iter().map(|refused| &refused.way));
     canvas.close();
     canvas.open(&format!("fill=\"{ALARM}\" {REFUSED_TOOL}"));
     for (at, radius) in layers.refused.iter().filter_map(|refused| refused.tool).filter(|_| in_plan) {
@@ -77,10 +94,11 @@ pub(crate) fn draw_refused(canvas: &mut Canvas, view: &View, layers: &DrawnLayer
     canvas.close();
 }
 
-fn draw_ways(canvas: &mut Canvas, view: &View, ways: &[Piece]) {
+fn draw_ways<'p>(canvas: &mut Canvas, view: &View, ways: impl Iterator<Item = &'p Piece>) {
+    let ways = seen(view, ways);
     let mut path = PathData::default();
-    let tolerance_mm = chord_tolerance(view, ways);
-    for way in ways {
+    let tolerance_mm = chord_tolerance(view, &ways);
+    for way in &ways {
         draw_feed(&mut path, view, way, tolerance_mm);
     }
     path.finish().iter().for_each(|d| canvas.path(d, ""));

@@ -18,6 +18,8 @@ pub(crate) const GRID: &str = "#e2e6ea";
 pub(crate) const RAPID: &str = "#8a95a1";
 /// The programmed contour.
 pub(crate) const CONTOUR: &str = INK;
+/// The path that the axes drive.
+pub(crate) const DRIVEN: &str = "#e0700a";
 /// The tool, and the area that it sweeps.
 pub(crate) const TOOL: &str = "#c07f10";
 pub(crate) const SWEPT: &str = "#fcf0d6";

@@ -2,6 +2,7 @@
 
 use crate::kept::KeptPath;
 use crate::layers::{Layer, Layers};
+use crate::look::Look;
 use crate::mark::Mark;
 use crate::piece::Piece;
 use crate::png::{PngError, png};
@@ -31,12 +32,20 @@ pub struct Drawing {
     path: KeptPath,
     marks: Vec<Mark>,
     layers: Layers,
+    look: Look,
 }
 
 impl Drawing {
     /// An empty drawing with a title.
     pub fn new(title: Title) -> Drawing {
-        Drawing { title, survey: Survey::new(), path: KeptPath::new(), marks: Vec::new(), layers: Layers::new() }
+        Drawing {
+            title,
+            survey: Survey::new(),
+            path: KeptPath::new(),
+            marks: Vec::new(),
+            layers: Layers::new(),
+            look: Look::Both,
+        }
     }
 
     /// Draws one move. A stroke with a coordinate that is not a number, or is beyond 1000 km, is ignored.
@@ -51,6 +60,44 @@ impl Drawing {
     /// Only these layers are drawn; the path that runs if nothing is said. Call it before anything comes in.
     pub fn show(&mut self, layers: &[Layer]) {
         self.layers.show(layers);
+    }
+
+    /// From where the path is seen: both views if nothing is said.
+    pub fn look(&mut self, look: Look) {
+        self.look = look;
+    }
+
+    /// The driven path's deviation is drawn so many times as large. Call it before anything comes in.
+    pub fn exaggerate(&mut self, times: f64) {
+        self.layers.exaggerate(times);
+    }
+
+    /// A way that the axes are to drive next, for layer [`Layer::Actual`].
+    pub fn ordered(&mut self, way: &Stroke) {
+        if let Some(piece) = piece_of(way) {
+            self.layers.ordered(&piece);
+        }
+    }
+
+    /// The axes drive through these places, for layer [`Layer::Actual`].
+    pub fn driven(&mut self, kind: Kind, points: &[[f64; 3]]) {
+        if points.iter().all(|point| is_drawable(point)) {
+            self.layers.driven(kind, points);
+        }
+    }
+
+    /// The axes cut through these places, for layer [`Layer::Actual`], with nothing that they could be compared with.
+    pub fn driven_alone(&mut self, points: &[[f64; 3]]) {
+        if points.iter().all(|point| is_drawable(point)) {
+            self.layers.driven_alone(Kind::Feed, points);
+        }
+    }
+
+    /// A way that the axes are to drive, which is drawn beside the one that they drive.
+    pub fn commanded(&mut self, way: &Stroke) {
+        if let Some(piece) = piece_of(way) {
+            self.layers.commanded(&piece);
+        }
     }
 
     /// A programmed way, beside which the tool runs.
@@ -92,8 +139,16 @@ impl Drawing {
     /// The sheet as SVG: well-formed, the same bytes for the same strokes and marks.
     pub fn svg(&self) -> String {
         let drawn = self.path.drawn(&self.survey);
-        let layers = self.layers.drawn();
-        sheet(&Content { title: &self.title, survey: &self.survey, drawn: &drawn, marks: &self.marks, layers })
+        let mut layers = self.layers.clone();
+        layers.finish();
+        sheet(&Content {
+            title: &self.title,
+            survey: &self.survey,
+            drawn: &drawn,
+            marks: &self.marks,
+            layers: layers.drawn(),
+            look: self.look,
+        })
     }
 
     /// The sheet as PNG, so many pixels wide (1 to [`WIDEST_PX`](crate::WIDEST_PX)); the height follows.

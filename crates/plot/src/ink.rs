@@ -7,7 +7,8 @@ use crate::stroke::Kind;
 use crate::view::View;
 
 /// The weight of a line of a sparse path, and the least weight, in sheet units.
-const FEED: [f64; 2] = [1.7, 0.12];
+pub(crate) const FEED_WEIGHT: f64 = 1.7;
+const FEED: [f64; 2] = [FEED_WEIGHT, 0.12];
 const RAPID: [f64; 2] = [1.0, 0.12];
 
 /// Where the path is dense, lines cover about this part of the paper.

@@ -45,6 +45,8 @@ pub(crate) struct Drawn {
     pub pieces: Vec<Piece>,
     /// How far from its place a piece may be in mm, if that is more than the sheet hides.
     pub visible_error_mm: Option<f64>,
+    /// How far from its place a piece may be in any case, mm.
+    pub error_mm: f64,
 }
 
 /// The pieces that are kept, and the straight chain that is still growing.
@@ -99,7 +101,7 @@ impl KeptPath {
             path.leave_out_covered(survey);
         }
         let visible_error_mm = path.visible_error_mm(survey);
-        Drawn { pieces: path.pieces, visible_error_mm }
+        Drawn { error_mm: path.tolerance_mm.max(path.cell_mm * 0.5), pieces: path.pieces, visible_error_mm }
     }
 
     fn visible_error_mm(&self, survey: &Survey) -> Option<f64> {

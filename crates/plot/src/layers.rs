@@ -2,6 +2,7 @@
 //!
 //! As the path itself, each is kept in bounded memory however much comes in.
 
+use crate::deviation::{Deviation, Farthest};
 use crate::extent::Extent;
 use crate::kept::{Drawn, KeptPath};
 use crate::piece::Piece;
@@ -18,6 +19,10 @@ pub enum Layer {
     Compensated,
     /// The tool, and the area that it sweeps.
     Tool,
+    /// The path that runs, coloured by its real speed.
+    Speed,
+    /// The path that the axes drive, beside the programmed one.
+    Actual,
 }
 
 /// More refused ways than this are not drawn.
@@ -58,6 +63,10 @@ impl Whole {
 pub(crate) struct Layers {
     shown: Vec<Layer>,
     programmed: Whole,
+    /// A contour is among what is programmed, beside which the tool runs.
+    has_contour: bool,
+    driven: Whole,
+    deviation: Deviation,
     /// What the tool sweeps; its radius in mm stands where a path has its feed.
     swept: Whole,
     places: ToolPlaces,
@@ -71,7 +80,16 @@ pub(crate) struct DrawnLayers<'l> {
     pub path: bool,
     /// A layer beside it is drawn too: the path needs its name.
     pub is_named: bool,
+    /// The path is coloured by real speed.
+    pub by_speed: bool,
     pub programmed: Vec<Piece>,
+    pub has_contour: bool,
+    pub driven: Vec<Piece>,
+    /// How many times the driven path's deviation is drawn, and where it is largest.
+    pub exaggeration: f64,
+    pub farthest: Option<Farthest>,
+    /// How far from their place the programmed and the driven path may be drawn, mm.
+    pub error_mm: f64,
     pub swept: Vec<Piece>,
     /// The radii of the tool, if there are few.
     pub radii: Vec<f64>,
@@ -87,6 +105,9 @@ impl Layers {
         Layers {
             shown: vec![Layer::Compensated],
             programmed: Whole::new(),
+            has_contour: false,
+            driven: Whole::new(),
+            deviation: Deviation::new(1.0),
             swept: Whole::new(),
             places: ToolPlaces::default(),
             refused: Vec::new(),
@@ -99,6 +120,44 @@ impl Layers {
         self.shown = layers.to_vec();
     }
 
+    /// Deviations of the driven path are drawn so many times as large.
+    pub fn exaggerate(&mut self, times: f64) {
+        self.deviation = Deviation::new(times);
+    }
+
+    /// The way that the axes are to drive next.
+    pub fn ordered(&mut self, piece: &Piece) {
+        if self.shows(Layer::Actual) && piece.kind == Kind::Feed {
+            self.deviation.order(piece);
+        }
+    }
+
+    /// The axes have driven to a place; from one that was left alone if it does not go on from where they were.
+    pub fn driven(&mut self, kind: Kind, points: &[[f64; 3]]) {
+        if !self.shows(Layer::Actual) {
+            return;
+        }
+        if kind == Kind::Rapid {
+            return self.driven_alone(kind, points);
+        }
+        let Layers { driven, deviation, .. } = self;
+        deviation.drive(points, |from, to| driven.push(&straight(kind, from, to)));
+    }
+
+    /// The axes have driven to a place, and what was ordered before that has ended.
+    pub fn driven_alone(&mut self, kind: Kind, points: &[[f64; 3]]) {
+        if self.shows(Layer::Actual) {
+            self.finish();
+            points.windows(2).for_each(|pair| self.driven.push(&straight(kind, pair[0], pair[1])));
+        }
+    }
+
+    /// Nothing more is driven.
+    pub fn finish(&mut self) {
+        let Layers { driven, deviation, .. } = self;
+        deviation.leave(|from, to| driven.push(&straight(Kind::Feed, from, to)));
+    }
+
     /// A programmed way.
     pub fn programmed(&mut self, piece: &Piece) {
         if self.shows(Layer::Programmed) {
@@ -106,8 +165,16 @@ impl Layers {
         }
     }
 
+    /// A way that the axes are to drive.
+    pub fn commanded(&mut self, piece: &Piece) {
+        if self.shows(Layer::Programmed) && self.shows(Layer::Actual) {
+            self.programmed.push(&Piece { feed: 0.0, ..*piece });
+        }
+    }
+
     /// A programmed way near a refused one: it is drawn whatever layers are.
     pub fn refused_among(&mut self, piece: &Piece) {
+        self.has_contour = true;
         self.programmed.push(&Piece { feed: 0.0, ..*piece });
     }
 
@@ -136,11 +203,19 @@ impl Layers {
 
     /// What is to be drawn.
     pub fn drawn(&self) -> DrawnLayers<'_> {
-        let programmed = self.programmed.drawn().pieces;
+        let (programmed, driven) = (self.programmed.drawn(), self.driven.drawn());
+        let error_mm = programmed.error_mm.max(driven.error_mm);
+        let programmed = programmed.pieces;
         DrawnLayers {
-            path: self.shows(Layer::Compensated),
-            is_named: self.shown != [Layer::Compensated] || !programmed.is_empty(),
+            path: self.shows(Layer::Compensated) || self.shows(Layer::Speed),
+            is_named: self.shown != [Layer::Compensated] && !self.shows(Layer::Speed) || !programmed.is_empty(),
+            by_speed: self.shows(Layer::Speed),
             programmed,
+            has_contour: self.has_contour,
+            driven: driven.pieces,
+            exaggeration: self.deviation.times,
+            farthest: self.deviation.farthest,
+            error_mm,
             swept: self.swept.drawn().pieces,
             radii: self.swept.survey.feeds.named().to_vec(),
             places: &self.places,
@@ -149,9 +224,13 @@ impl Layers {
         }
     }
 
-    fn shows(&self, layer: Layer) -> bool {
+    pub fn shows(&self, layer: Layer) -> bool {
         self.shown.contains(&layer)
     }
+}
+
+fn straight(kind: Kind, from: [f64; 3], to: [f64; 3]) -> Piece {
+    Piece { kind, from, to, arc: None, feed: 0.0 }
 }
 
 impl DrawnLayers<'_> {
@@ -162,7 +241,7 @@ impl DrawnLayers<'_> {
                 frame.include([point[0] + side, point[1] + side, point[2]]);
             }
         };
-        let ways = self.programmed.iter().chain(self.refused.iter().map(|refused| &refused.way));
+        let ways = self.programmed.iter().chain(&self.driven).chain(self.refused.iter().map(|refused| &refused.way));
         for (piece, radius) in ways.map(|piece| (piece, 0.0)).chain(self.swept.iter().map(|piece| (piece, piece.feed)))
         {
             if piece.kind == Kind::Feed {

@@ -4,8 +4,9 @@
 
 use crate::rect::Rect;
 
-/// The width of the sheet in sheet units; a unit is about a point of print on A4.
+/// The width of the sheet in sheet units; a unit is about a point of print on A4. A plan alone takes less.
 pub(crate) const SHEET_WIDTH: f64 = 1600.0;
+const PLAN_WIDTH: f64 = 1000.0;
 
 /// The white margin at each side.
 pub(crate) const MARGIN: f64 = 48.0;
@@ -29,6 +30,13 @@ const BETWEEN: f64 = 44.0;
 /// The least and the greatest height of the views together. With header and legend, the greatest gives A4 landscape.
 const VIEWS_HEIGHT: [f64; 2] = [430.0, 850.0];
 
+/// The same of a plan alone.
+const PLAN_HEIGHT: [f64; 2] = [260.0, 680.0];
+
+/// A plan beside a detail has this part of the width, and both are at least so high.
+const PLAN_BESIDE_DETAIL: f64 = 0.54;
+const DETAIL_HEIGHT: f64 = 520.0;
+
 /// The least room for a panel.
 const LEAST_PANEL: f64 = 130.0;
 
@@ -38,8 +46,10 @@ const SIDE_BY_SIDE_IS_BETTER: f64 = 1.1;
 /// The places of the parts.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Layout {
+    /// The width of the sheet.
+    pub width: f64,
     pub plan: Rect,
-    pub isometric: Rect,
+    pub isometric: Option<Rect>,
     /// Where the room below the views begins.
     pub views_bottom: f64,
 }
@@ -65,6 +75,25 @@ pub(crate) fn layout(plan: [f64; 2], isometric: [f64; 2]) -> Layout {
     best.layout
 }
 
+/// The layout of a plan alone, for a flat picture of this size.
+pub(crate) fn plan_layout(plan: [f64; 2], inset: [f64; 4]) -> Layout {
+    let width = PLAN_WIDTH - 2.0 * MARGIN - PLAN_LABELS[0];
+    let (_, height) = fitted(plan, width, PLAN_HEIGHT[1], inset);
+    let plan = Rect { x: MARGIN + PLAN_LABELS[0], y: VIEWS_TOP, width, height: height.max(PLAN_HEIGHT[0]) };
+    Layout { width: PLAN_WIDTH, plan, isometric: None, views_bottom: plan.bottom() + PLAN_LABELS[1] }
+}
+
+/// The layout of a plan of this size with a detail beside it, and the detail's panel.
+pub(crate) fn detail_layout(plan: [f64; 2]) -> (Layout, Rect) {
+    let room = SHEET_WIDTH - 2.0 * MARGIN - 2.0 * PLAN_LABELS[0] - BETWEEN;
+    let width = room * PLAN_BESIDE_DETAIL;
+    let (_, height) = fitted(plan, width, VIEWS_HEIGHT[1] - PLAN_LABELS[1], PLAN_INSET);
+    let plan = Rect { x: MARGIN + PLAN_LABELS[0], y: VIEWS_TOP, width, height: height.max(DETAIL_HEIGHT) };
+    let x = plan.right() + BETWEEN + PLAN_LABELS[0];
+    let detail = Rect { x, width: SHEET_WIDTH - MARGIN - x, ..plan };
+    (Layout { width: SHEET_WIDTH, plan, isometric: None, views_bottom: plan.bottom() + PLAN_LABELS[1] }, detail)
+}
+
 /// The scale at which a picture fits a panel, and the panel's height that it needs then.
 fn fitted(size: [f64; 2], width: f64, height: f64, inset: [f64; 4]) -> (f64, f64) {
     let [left, top, right, bottom] = inset;
@@ -83,7 +112,8 @@ fn beside(plan: [f64; 2], isometric: [f64; 2], part: f64) -> Arrangement {
     let height = plan_height.max(isometric_height).max(VIEWS_HEIGHT[0]);
     let plan = Rect { x: MARGIN + PLAN_LABELS[0], y: VIEWS_TOP, width: plan_width, height };
     let isometric = Rect { x: plan.right() + BETWEEN, y: VIEWS_TOP, width: isometric_width, height };
-    let layout = Layout { plan, isometric, views_bottom: plan.bottom() + PLAN_LABELS[1] };
+    let views_bottom = plan.bottom() + PLAN_LABELS[1];
+    let layout = Layout { width: SHEET_WIDTH, plan, isometric: Some(isometric), views_bottom };
     Arrangement { layout, worth: worth(plan_scale, isometric_scale) + 2.0 * libm::log(SIDE_BY_SIDE_IS_BETTER) }
 }
 
@@ -96,7 +126,7 @@ fn above(plan: [f64; 2], isometric: [f64; 2], part: f64) -> Arrangement {
     let plan = Rect { x, y: VIEWS_TOP, width, height: plan_height };
     let top = plan.bottom() + PLAN_LABELS[1] + HEADING;
     let isometric = Rect { x, y: top, width, height: isometric_height };
-    let layout = Layout { plan, isometric, views_bottom: isometric.bottom() };
+    let layout = Layout { width: SHEET_WIDTH, plan, isometric: Some(isometric), views_bottom: isometric.bottom() };
     Arrangement { layout, worth: worth(plan_scale, isometric_scale) }
 }
 
@@ -110,19 +140,23 @@ mod tests {
 
     #[test]
     fn a_plate_stands_beside_its_isometric_and_a_bar_above_it() {
-        let plate = layout([200.0, 150.0], [303.0, 195.0]);
-        assert!(plate.plan.right() < plate.isometric.x && plate.plan.y == plate.isometric.y);
-        let bar = layout([1000.0, 20.0], [883.0, 520.0]);
-        assert!(bar.plan.bottom() < bar.isometric.y && bar.plan.width > 1300.0);
-        let post = layout([20.0, 1000.0], [883.0, 520.0]);
-        assert!(post.plan.right() < post.isometric.x && post.plan.width < 400.0);
+        let views = |plan, isometric| {
+            let layout = layout(plan, isometric);
+            (layout.plan, layout.isometric.expect("both views"))
+        };
+        let (plan, isometric) = views([200.0, 150.0], [303.0, 195.0]);
+        assert!(plan.right() < isometric.x && plan.y == isometric.y);
+        let (plan, isometric) = views([1000.0, 20.0], [883.0, 520.0]);
+        assert!(plan.bottom() < isometric.y && plan.width > 1300.0);
+        let (plan, isometric) = views([20.0, 1000.0], [883.0, 520.0]);
+        assert!(plan.right() < isometric.x && plan.width < 400.0);
     }
 
     #[test]
     fn everything_stays_on_the_sheet() {
         for (plan, isometric) in [([1.0, 1.0], [2.0, 1.0]), ([1e6, 1e-6], [1e6, 1e6]), ([1e-9, 1e-9], [1e-9, 3.0])] {
             let layout = layout(plan, isometric);
-            for panel in [layout.plan, layout.isometric] {
+            for panel in [layout.plan, layout.isometric.expect("both views")] {
                 assert!(panel.x >= MARGIN && panel.right() <= SHEET_WIDTH - MARGIN + 1e-6, "{layout:?}");
                 assert!(panel.height >= LEAST_PANEL && panel.bottom() <= layout.views_bottom, "{layout:?}");
             }

@@ -1,14 +1,15 @@
 //! The legend: every line and sign that occurs, with its meaning, in rows below the views.
 
-use crate::beside::{CONTOUR_WEIGHT, REFUSED_TOOL, REFUSED_WEIGHT, TOOL_WEIGHT};
+use crate::beside::{CONTOUR_WEIGHT, DRIVEN_WEIGHT, REFUSED_TOOL, REFUSED_WEIGHT, TOOL_WEIGHT};
 use crate::canvas::Canvas;
-use crate::colour::{ALARM, AXIS, CONTOUR, INK, RAPID, SWEPT, TOOL, hex};
+use crate::colour::{ALARM, AXIS, CONTOUR, DRIVEN, INK, RAPID, SWEPT, TOOL, hex};
+use crate::detail::CIRCLED;
 use crate::label::{Anchor, Label};
-use crate::layout::{MARGIN, SHEET_WIDTH};
+use crate::layout::MARGIN;
 use crate::mark::MarkKind;
 use crate::palette::Palette;
 use crate::rect::Rect;
-use crate::scale::{Step, written, written_range};
+use crate::scale::{Step, written, written_deviation, written_range};
 use crate::sign::{draw_sign, hole_path};
 use crate::text::width;
 
@@ -28,6 +29,14 @@ const BAR_ROW: f64 = 50.0;
 pub(crate) enum Entry {
     /// The programmed contour's line.
     Contour,
+    /// The programmed path's line, beside the one that is driven.
+    Programmed,
+    /// The programmed contour's line, and that of the commanded path beside it.
+    ContourAndPath,
+    /// The path that is driven, and how many times its deviation is drawn.
+    Driven(f64),
+    /// The circle round the largest deviation: how many mm that is, and how many times it is drawn beside the plan.
+    Circled(f64, f64),
     /// The tool, with its radii in mm if there are few.
     Tool(Vec<f64>),
     /// The area that the tool sweeps.
@@ -42,6 +51,8 @@ pub(crate) enum Entry {
     Feed(usize, f64),
     /// The continuous scale between two feeds in mm/min.
     Scale(f64, f64),
+    /// The scale of real speeds up to the fastest in mm/min.
+    Speed(f64),
     /// A drilled hole.
     Hole,
     /// A mark.
@@ -52,6 +63,20 @@ impl Entry {
     fn text(&self) -> String {
         match self {
             Entry::Contour => "programmed contour".to_owned(),
+            Entry::Programmed => "programmed path".to_owned(),
+            Entry::ContourAndPath => "programmed contour, and the commanded path beside it".to_owned(),
+            Entry::Driven(times) if *times != 1.0 => {
+                format!("driven path, its deviation drawn {} times as large", written(*times))
+            }
+            Entry::Driven(_) => "driven path".to_owned(),
+            Entry::Circled(by, times) => {
+                format!(
+                    "largest deviation, {} mm, at the right {} times as large",
+                    written_deviation(*by),
+                    written(*times)
+                )
+            }
+            Entry::Speed(_) => "real speed, mm/min".to_owned(),
             Entry::Tool(radii) => tool_text(radii),
             Entry::Swept => "swept by the tool".to_owned(),
             Entry::Refused => "refused: the tool does not fit beside it".to_owned(),
@@ -68,14 +93,15 @@ impl Entry {
 
     fn sample(&self) -> f64 {
         match self {
-            Entry::Contour | Entry::Swept | Entry::Refused | Entry::Rapid | Entry::Feed(..) => LINE_SAMPLE,
-            Entry::Tool(_) | Entry::Hole | Entry::Sign(_) => SIGN_SAMPLE,
-            Entry::Path | Entry::Scale(..) => 0.0,
+            Entry::Contour | Entry::Programmed | Entry::ContourAndPath | Entry::Driven(_) => LINE_SAMPLE,
+            Entry::Swept | Entry::Refused | Entry::Rapid | Entry::Feed(..) => LINE_SAMPLE,
+            Entry::Tool(_) | Entry::Circled(..) | Entry::Hole | Entry::Sign(_) => SIGN_SAMPLE,
+            Entry::Path | Entry::Scale(..) | Entry::Speed(_) => 0.0,
         }
     }
 
     fn width(&self) -> f64 {
-        let beside = if matches!(self, Entry::Scale(..)) { BAR } else { self.sample() };
+        let beside = if matches!(self, Entry::Scale(..) | Entry::Speed(_)) { BAR } else { self.sample() };
         // A name stands close to what it names.
         let before = if matches!(self, Entry::Path) { -BETWEEN * 0.6 } else { 10.0 };
         beside + before + width(&self.text(), SIZE)
@@ -89,12 +115,12 @@ pub(crate) struct Legend {
 
 impl Legend {
     /// The legend of these entries, as few rows as the sheet's width allows.
-    pub fn new(entries: Vec<Entry>) -> Legend {
+    pub fn new(entries: Vec<Entry>, sheet_width: f64) -> Legend {
         let mut rows: Vec<Vec<Entry>> = Vec::new();
         let mut used = f64::INFINITY;
         for entry in entries {
             let wide = entry.width();
-            if used + wide > SHEET_WIDTH - 2.0 * MARGIN {
+            if used + wide > sheet_width - 2.0 * MARGIN {
                 rows.push(Vec::new());
                 used = 0.0;
             }
@@ -126,13 +152,16 @@ impl Legend {
 }
 
 fn row_height(row: &[Entry]) -> f64 {
-    if row.iter().any(|entry| matches!(entry, Entry::Scale(..))) { BAR_ROW } else { ROW }
+    if row.iter().any(|entry| matches!(entry, Entry::Scale(..) | Entry::Speed(_))) { BAR_ROW } else { ROW }
 }
 
 fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Palette) {
     let middle = [x + 0.5 * entry.sample(), y];
     match entry {
-        Entry::Contour => draw_sample(canvas, [x, y], CONTOUR, CONTOUR_WEIGHT),
+        Entry::Contour | Entry::Programmed | Entry::ContourAndPath => {
+            draw_sample(canvas, [x, y], CONTOUR, CONTOUR_WEIGHT)
+        }
+        Entry::Driven(_) => draw_sample(canvas, [x, y], DRIVEN, DRIVEN_WEIGHT),
         Entry::Refused => {
             draw_sample(canvas, [x, y], ALARM, REFUSED_WEIGHT);
             canvas.open(&format!("fill=\"{ALARM}\" stroke=\"{ALARM}\" {REFUSED_TOOL}"));
@@ -142,6 +171,11 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Pa
         Entry::Swept => {
             let part = Rect { x, y: y - 7.0, width: LINE_SAMPLE, height: 14.0 };
             canvas.rect(&part, &format!("rx=\"7\" fill=\"{SWEPT}\""));
+        }
+        Entry::Circled(..) => {
+            canvas.open(&format!("stroke=\"{INK}\" {CIRCLED}"));
+            canvas.circle(middle, 8.0);
+            canvas.close();
         }
         Entry::Tool(_) => {
             canvas.open(&format!("stroke=\"{TOOL}\" stroke-width=\"{TOOL_WEIGHT}\""));
@@ -165,6 +199,10 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, [x, y]: [f64; 2], palette: &Pa
         Entry::Sign(kind) => draw_sign(canvas, *kind, middle),
         Entry::Scale(slowest, fastest) => {
             return draw_scale(canvas, entry, [x, y], scale_ticks(*slowest, *fastest), palette);
+        }
+        Entry::Speed(fastest) => {
+            let ticks = Step::at_least((fastest * NUMBER / BAR).max(f64::MIN_POSITIVE)).ticks(0.0, *fastest);
+            return draw_scale(canvas, entry, [x, y], ticks, palette);
         }
     }
     let label = Label::new(entry.text(), [x + entry.sample() + 10.0, y], SIZE, Anchor::Start).centred();
@@ -249,8 +287,8 @@ mod tests {
 
     #[test]
     fn a_long_legend_takes_more_rows() {
-        let few = Legend::new(vec![Entry::Rapid, Entry::Feed(0, 100.0)]);
-        let many = Legend::new((0..20).map(|nth| Entry::Feed(nth, 1000.0)).collect());
+        let few = Legend::new(vec![Entry::Rapid, Entry::Feed(0, 100.0)], 1600.0);
+        let many = Legend::new((0..20).map(|nth| Entry::Feed(nth, 1000.0)).collect(), 1600.0);
         assert_eq!(few.height(), ROW);
         assert!(many.height() >= 2.0 * ROW);
     }

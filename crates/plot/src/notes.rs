@@ -1,7 +1,8 @@
 //! What the picture cannot show, said in words below it.
 
+use crate::detail::{SEEN, SEEN_WELL, WINDOW};
 use crate::extent::Extent;
-use crate::scale::{written, written_range};
+use crate::scale::{Step, written, written_deviation, written_range};
 use crate::sheet::{Content, Views, written_point};
 use crate::stroke::Kind;
 
@@ -21,10 +22,37 @@ pub(crate) fn notes(content: &Content, views: &Views) -> Vec<String> {
     notes.extend(content.drawn.visible_error_mm.map(|error| {
         format!("The program is long: lines are drawn to within {} mm of their place.", written(error.max(0.001)))
     }));
+    notes.extend(deviation(content, views));
     if content.layers.unseen {
         notes.push("The tool is drawn in the plan only, and only where it is compensated in the XY plane.".to_owned());
     }
     notes
+}
+
+/// How far the driven path is from the programmed one, and whether that is seen.
+fn deviation(content: &Content, views: &Views) -> Vec<String> {
+    let layers = &content.layers;
+    if layers.driven.iter().all(|piece| piece.kind == Kind::Rapid) {
+        return Vec::new();
+    }
+    let Some(farthest) = layers.farthest else {
+        return vec!["The axes drive the commanded path itself.".to_owned()];
+    };
+    let by = written_deviation(farthest.by);
+    let mut note =
+        format!("The driven path is at most {by} mm from the commanded one, at {}.", written_point(farthest.at));
+    let mut hint = None;
+    let seen = farthest.by * views.plan.scale * layers.exaggeration;
+    if seen < SEEN && views.detail.is_none() {
+        let times = Step::at_least(SEEN_WELL / (farthest.by * views.plan.scale)).times(1.0);
+        let window = Step::at_least(farthest.by * WINDOW).times(1.0);
+        let [x, y] = [farthest.at[0], farthest.at[1]].map(|at| format!("{at:.3}"));
+        note.push_str(" Too little to be seen here.");
+        hint = Some(format!(
+            "It is seen with --around {x},{y},{window} or, drawn larger everywhere, with --exaggerate {times}."
+        ));
+    }
+    [note].into_iter().chain(hint).collect()
 }
 
 /// Where rapids go that leave a view.
@@ -55,8 +83,7 @@ fn rapids_outside(content: &Content, views: &Views) -> Option<String> {
 
 /// Which marks neither view shows, and where they are.
 fn marks_outside(content: &Content, views: &Views) -> Option<String> {
-    let outside: Vec<_> =
-        content.marks.iter().filter(|mark| !views.plan.shows(mark.at) && !views.isometric.shows(mark.at)).collect();
+    let outside: Vec<_> = content.marks.iter().filter(|mark| !views.any_shows(mark.at)).collect();
     let mut places: Vec<([f64; 3], Vec<String>)> = Vec::new();
     for mark in outside.iter().take(MOST_MARKS) {
         match places.iter_mut().find(|(at, _)| *at == mark.at) {

@@ -13,6 +13,8 @@ pub(crate) enum Palette {
     Few(Vec<f64>),
     /// A scale in equal ratios between two feeds in mm/min.
     Scale { slowest: f64, fastest: f64 },
+    /// A scale in equal steps from rest to the fastest speed in mm/min.
+    Speed { fastest: f64 },
 }
 
 impl Palette {
@@ -25,11 +27,16 @@ impl Palette {
         }
     }
 
+    /// The palette for real speeds.
+    pub fn of_speed(speeds: &Feeds) -> Palette {
+        Palette::Speed { fastest: speeds.fastest }
+    }
+
     /// How many colours there are.
     pub fn shades(&self) -> usize {
         match self {
             Palette::Few(feeds) => feeds.len(),
-            Palette::Scale { .. } => SHADES,
+            Palette::Scale { .. } | Palette::Speed { .. } => SHADES,
         }
     }
 
@@ -37,15 +44,17 @@ impl Palette {
     pub fn shade(&self, feed: f64) -> usize {
         match self {
             Palette::Few(feeds) => feeds.partition_point(|known| *known < feed),
-            Palette::Scale { .. } => (self.place(feed) * SHADES as f64) as usize,
+            Palette::Scale { .. } | Palette::Speed { .. } => (self.place(feed) * SHADES as f64) as usize,
         }
         .min(self.shades().saturating_sub(1))
     }
 
     /// The place of a feed on a continuous scale, 0 to 1.
     pub fn place(&self, feed: f64) -> f64 {
-        let Palette::Scale { slowest, fastest } = self else {
-            return 0.0;
+        let (slowest, fastest) = match self {
+            Palette::Few(_) => return 0.0,
+            Palette::Scale { slowest, fastest } => (slowest, fastest),
+            Palette::Speed { fastest } => return (feed / fastest).clamp(0.0, 1.0),
         };
         if feed <= *slowest {
             return 0.0;
@@ -57,7 +66,7 @@ impl Palette {
     pub fn colour(&self, shade: usize) -> Rgb {
         match self {
             Palette::Few(feeds) => of_few(shade, feeds.len()),
-            Palette::Scale { .. } => on_scale(shade as f64 / (SHADES - 1) as f64),
+            Palette::Scale { .. } | Palette::Speed { .. } => on_scale(shade as f64 / (SHADES - 1) as f64),
         }
     }
 }

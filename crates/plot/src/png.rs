@@ -20,7 +20,10 @@ pub enum PngError {
 }
 
 /// The SVG as PNG bytes, as wide as asked and as high as its shape makes it.
-pub(crate) fn png(svg: &str, width_px: u32) -> Result<Vec<u8>, PngError> {
+///
+/// # Errors
+/// The width is 0 or above [`WIDEST_PX`], or the SVG is not one of this crate's.
+pub fn png(svg: &str, width_px: u32) -> Result<Vec<u8>, PngError> {
     if width_px == 0 || width_px > WIDEST_PX {
         return Err(PngError::Width(width_px));
     }

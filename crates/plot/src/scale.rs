@@ -53,6 +53,12 @@ pub(crate) fn written(value: f64) -> String {
     }
 }
 
+/// A small length with three figures, at most to a nanometre.
+pub(crate) fn written_deviation(by: f64) -> String {
+    let decimals = (2 - libm::log10(by).floor() as i32).clamp(0, 6) as usize;
+    format!("{by:.decimals$}")
+}
+
 /// A range of numbers, or one number if its ends are written alike.
 pub(crate) fn written_range(low: f64, high: f64) -> String {
     let (low, high) = (written(low), written(high));

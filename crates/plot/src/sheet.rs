@@ -1,8 +1,9 @@
 //! The whole sheet: header, both views, legend, notes.
 
-use crate::beside::{draw_contour, draw_refused, draw_swept, draw_tool};
+use crate::beside::{draw_contour, draw_driven, draw_refused, draw_swept, draw_tool};
 use crate::canvas::Canvas;
 use crate::colour::{GRID, INK, PAPER, SOFT_INK};
+use crate::detail::Detail;
 use crate::drawing::Title;
 use crate::extent::Extent;
 use crate::frame::frame;
@@ -12,8 +13,9 @@ use crate::isometric_axes::{draw_isometric_axes, draw_isometric_floor};
 use crate::kept::Drawn;
 use crate::label::{Anchor, Label, Places};
 use crate::layers::DrawnLayers;
-use crate::layout::{ISOMETRIC_INSET, Layout, MARGIN, PLAN_INSET, SHEET_WIDTH, layout};
+use crate::layout::{ISOMETRIC_INSET, Layout, MARGIN, PLAN_INSET, layout, plan_layout};
 use crate::legend::{Entry, Legend};
+use crate::look::Look;
 use crate::mark::Mark;
 use crate::notes::notes;
 use crate::palette::Palette;
@@ -44,38 +46,60 @@ pub(crate) struct Content<'a> {
     pub drawn: &'a Drawn,
     pub marks: &'a [Mark],
     pub layers: DrawnLayers<'a>,
+    pub look: Look,
 }
 
 /// The sheet as SVG.
 pub(crate) fn sheet(content: &Content) -> String {
-    let palette = Palette::new(&content.survey.feeds);
-    let frame = frame(content.survey, &content.drawn.pieces, &content.layers);
+    let feeds = &content.survey.feeds;
+    let palette = if content.layers.by_speed { Palette::of_speed(feeds) } else { Palette::new(feeds) };
+    let frame = content.look.frame(frame(content.survey, &content.drawn.pieces, &content.layers));
     let cuts = down_cuts(&content.drawn.pieces);
     let size = |projection: Projection| {
         let flat = projection.flat_extent(&frame);
         [flat.width, flat.height]
     };
-    let layout = layout(size(Projection::Plan), size(Projection::Isometric));
-    let views = Views {
-        plan: View::fit(Projection::Plan, &frame, layout.plan, PLAN_INSET),
-        isometric: View::fit(Projection::Isometric, &frame, layout.isometric, ISOMETRIC_INSET),
+    let inset = content.look.inset(PLAN_INSET);
+    let layout = match content.look {
+        Look::Both => layout(size(Projection::Plan), size(Projection::Isometric)),
+        Look::Plan | Look::Around(..) => plan_layout(size(Projection::Plan), inset),
     };
-    let legend = Legend::new(entries(content, &views, &palette, &cuts));
+    let plan = View::fit(Projection::Plan, &frame, layout.plan, inset);
+    let detail =
+        (content.look == Look::Both).then(|| Detail::of(&content.layers, plan.scale, size(Projection::Plan))).flatten();
+    let (layout, detail) = detail.map_or((layout, None), |(layout, detail)| (layout, Some(detail)));
+    let views = Views {
+        plan: View::fit(Projection::Plan, &frame, layout.plan, inset),
+        isometric: layout.isometric.map(|panel| View::fit(Projection::Isometric, &frame, panel, ISOMETRIC_INSET)),
+        detail,
+    };
+    let legend = Legend::new(entries(content, &views, &palette, &cuts), layout.width);
     let notes = notes(content, &views);
     let legend_top = layout.views_bottom + 22.0;
     let notes_top = legend_top + legend.height() + 8.0;
     let height = (notes_top + NOTE_ROW * notes.len() as f64 + MARGIN - 14.0).ceil();
 
-    let mut canvas = Canvas::new(SHEET_WIDTH, height);
+    let mut canvas = Canvas::new(layout.width, height);
     canvas.title(&content.title.program);
-    canvas.rect(&Rect { x: 0.0, y: 0.0, width: SHEET_WIDTH, height }, &format!("fill=\"{PAPER}\""));
-    draw_header(&mut canvas, content);
-    draw_headings(&mut canvas, &layout);
-    draw_plan(&mut canvas, &views.plan, content, &palette, &cuts);
-    draw_isometric(&mut canvas, &views.isometric, content, &palette, &frame);
+    canvas.rect(&Rect { x: 0.0, y: 0.0, width: layout.width, height }, &format!("fill=\"{PAPER}\""));
+    draw_header(&mut canvas, content.title, &facts(content.survey), layout.width);
+    draw_headings(&mut canvas, &layout, views.detail.as_ref());
+    // A whole frame holds all that cuts; a window does not.
+    let is_window = matches!(content.look, Look::Around(..));
+    draw_plan(&mut canvas, &views.plan, content, (&palette, &cuts), is_window);
+    if let Some(view) = &views.isometric {
+        draw_isometric(&mut canvas, view, content, &palette, &frame);
+    }
+    if let Some(detail) = &views.detail {
+        detail.circle(&mut canvas, &views.plan);
+        match detail.view.projection {
+            Projection::Plan => draw_plan(&mut canvas, &detail.view, content, (&palette, &cuts), true),
+            Projection::Isometric => draw_isometric(&mut canvas, &detail.view, content, &palette, &detail.frame),
+        }
+    }
     legend.draw(&mut canvas, legend_top, &palette);
     for (row, note) in notes.iter().enumerate() {
-        let text = shortened(note, NOTE_SIZE, SHEET_WIDTH - 2.0 * MARGIN);
+        let text = shortened(note, NOTE_SIZE, layout.width - 2.0 * MARGIN);
         let at = [MARGIN, notes_top + NOTE_ROW * (row as f64 + 0.5)];
         canvas.text(&Label::new(text, at, NOTE_SIZE, Anchor::Start).centred(), SOFT_INK);
     }
@@ -85,29 +109,36 @@ pub(crate) fn sheet(content: &Content) -> String {
 /// The two views of a sheet.
 pub(crate) struct Views {
     pub plan: View,
-    pub isometric: View,
+    pub isometric: Option<View>,
+    /// Where the driven path is farthest off, instead of the isometric view.
+    pub detail: Option<Detail>,
 }
 
 impl Views {
-    /// True if both views show the point.
+    /// True if every view shows the point.
     pub fn show(&self, point: [f64; 3]) -> bool {
-        self.plan.shows(point) && self.isometric.shows(point)
+        self.plan.shows(point) && self.isometric.as_ref().is_none_or(|view| view.shows(point))
+    }
+
+    /// True if a view shows the point.
+    pub fn any_shows(&self, point: [f64; 3]) -> bool {
+        self.plan.shows(point) || self.isometric.as_ref().is_some_and(|view| view.shows(point))
     }
 }
 
-fn draw_header(canvas: &mut Canvas, content: &Content) {
-    let room = SHEET_WIDTH - 2.0 * MARGIN;
-    let title = content.title;
+/// The program, what runs it, and a line of facts.
+pub(crate) fn draw_header(canvas: &mut Canvas, title: &Title, facts: &str, sheet_width: f64) {
+    let room = sheet_width - 2.0 * MARGIN;
     let machine = [&title.control, &title.machine].map(|part| part.trim());
     let machine = machine.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  \u{b7}  ");
     let machine = shortened(&machine, SUBTITLE_SIZE, room * 0.5);
     let program = shortened(&title.program, TITLE_SIZE, room - width(&machine, SUBTITLE_SIZE) - 40.0);
     canvas.text(&Label::new(program, [MARGIN, 60.0], TITLE_SIZE, Anchor::Start), INK);
-    canvas.text(&Label::new(machine, [SHEET_WIDTH - MARGIN, 60.0], SUBTITLE_SIZE, Anchor::End), SOFT_INK);
-    let facts = shortened(&facts(content.survey), FACTS_SIZE, room);
+    canvas.text(&Label::new(machine, [sheet_width - MARGIN, 60.0], SUBTITLE_SIZE, Anchor::End), SOFT_INK);
+    let facts = shortened(facts, FACTS_SIZE, room);
     canvas.text(&Label::new(facts, [MARGIN, 91.0], FACTS_SIZE, Anchor::Start), SOFT_INK);
     canvas.open(&format!("stroke=\"{GRID}\" stroke-width=\"1.5\""));
-    canvas.line([MARGIN, 108.0], [SHEET_WIDTH - MARGIN, 108.0]);
+    canvas.line([MARGIN, 108.0], [sheet_width - MARGIN, 108.0]);
     canvas.close();
 }
 
@@ -138,22 +169,37 @@ fn facts(survey: &Survey) -> String {
     parts.join("   \u{b7}   ")
 }
 
-fn draw_headings(canvas: &mut Canvas, layout: &Layout) {
-    for (panel, text) in [(layout.plan, "Plan"), (layout.isometric, "Isometric")] {
+fn draw_headings(canvas: &mut Canvas, layout: &Layout, detail: Option<&Detail>) {
+    let detail = detail.map(|detail| detail.view.panel);
+    for (panel, text) in [(Some(layout.plan), "Plan"), (layout.isometric, "Isometric"), (detail, "In the circle")] {
+        let Some(panel) = panel else { continue };
         canvas.text(&Label::new(text, [panel.middle()[0], panel.y - 13.0], HEADING_SIZE, Anchor::Middle), INK);
     }
 }
 
-fn draw_plan(canvas: &mut Canvas, view: &View, content: &Content, palette: &Palette, cuts: &[DownCut]) {
+fn draw_plan(
+    canvas: &mut Canvas,
+    view: &View,
+    content: &Content,
+    (palette, cuts): (&Palette, &[DownCut]),
+    is_window: bool,
+) {
     let mut places = Places::default();
     draw_swept(canvas, view, &content.layers);
     draw_plan_grid(canvas, view);
     let ink = Ink::measure(view, &content.drawn.pieces);
     draw_tool(canvas, view, &content.layers);
     if content.layers.path {
+        if is_window {
+            canvas.open_clipped(&view.panel, "");
+        }
         draw_strokes(canvas, view, &content.drawn.pieces, palette, &ink);
         draw_down_cuts(canvas, view, cuts, palette, &mut places);
+        if is_window {
+            canvas.close();
+        }
     }
+    draw_driven(canvas, view, &content.layers);
     draw_contour(canvas, view, &content.layers, &ink);
     draw_refused(canvas, view, &content.layers, true);
     draw_plan_axes(canvas, view, &mut places);
@@ -168,6 +214,7 @@ fn draw_isometric(canvas: &mut Canvas, view: &View, content: &Content, palette: 
     if content.layers.path {
         draw_strokes(canvas, view, &content.drawn.pieces, palette, &ink);
     }
+    draw_driven(canvas, view, &content.layers);
     draw_contour(canvas, view, &content.layers, &ink);
     draw_refused(canvas, view, &content.layers, false);
     draw_isometric_axes(canvas, view, frame, &mut places);
@@ -178,7 +225,17 @@ fn entries(content: &Content, views: &Views, palette: &Palette, cuts: &[DownCut]
     let mut entries = Vec::new();
     let layers = &content.layers;
     if !layers.programmed.is_empty() {
-        entries.push(Entry::Contour);
+        entries.push(match (layers.driven.is_empty(), layers.has_contour) {
+            (true, _) => Entry::Contour,
+            (false, true) => Entry::ContourAndPath,
+            (false, false) => Entry::Programmed,
+        });
+    }
+    if !layers.driven.is_empty() {
+        entries.push(Entry::Driven(layers.exaggeration));
+    }
+    if let (Some(detail), Some(farthest)) = (&views.detail, layers.farthest) {
+        entries.push(Entry::Circled(farthest.by, detail.times(&views.plan)));
     }
     if !layers.swept.is_empty() {
         entries.push(Entry::Tool(layers.radii.clone()));
@@ -193,7 +250,7 @@ fn entries(content: &Content, views: &Views, palette: &Palette, cuts: &[DownCut]
         }
         path_entries(&mut entries, content, palette, cuts);
     }
-    let seen = |mark: &&Mark| views.plan.shows(mark.at) || views.isometric.shows(mark.at);
+    let seen = |mark: &&Mark| views.any_shows(mark.at);
     let mut kinds: Vec<_> = content.marks.iter().filter(seen).map(|mark| mark.kind.without_number()).collect();
     kinds.sort_unstable();
     kinds.dedup();
@@ -210,6 +267,8 @@ fn path_entries(entries: &mut Vec<Entry>, content: &Content, palette: &Palette, 
         Palette::Few(feeds) => {
             entries.extend(feeds.iter().enumerate().map(|(shade, feed)| Entry::Feed(shade, *feed)));
         }
+        Palette::Speed { fastest } if *fastest > 0.0 => entries.push(Entry::Speed(*fastest)),
+        Palette::Speed { .. } => {}
         Palette::Scale { slowest, fastest } => entries.push(Entry::Scale(*slowest, *fastest)),
     }
     if cuts.iter().any(|cut| cut.is_hole) {

@@ -8,7 +8,7 @@ use crate::clip::Clipped;
 use crate::colour::{PAPER, RAPID, hex};
 use crate::dash::dash;
 use crate::hole::DownCut;
-use crate::ink::Ink;
+use crate::ink::{FEED_WEIGHT, Ink};
 use crate::label::Places;
 use crate::palette::Palette;
 use crate::path_data::PathData;
@@ -44,16 +44,20 @@ const PLUNGE: f64 = 1.9;
 /// Draws the path.
 pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], palette: &Palette, ink: &Ink) {
     draw_rapids(canvas, view, pieces, ink);
-    let tolerance_mm = chord_tolerance(view, pieces);
+    let pieces = seen(view, pieces.iter());
+    let tolerance_mm = chord_tolerance(view, &pieces);
     let mut paths = vec![PathData::default(); palette.shades()];
     for piece in pieces.iter().filter(|piece| piece.kind == Kind::Feed) {
         if let Some(path) = paths.get_mut(palette.shade(piece.feed)) {
             draw_feed(path, view, piece, tolerance_mm);
         }
     }
-    let width = short(ink.feed_weight);
-    // Where the colour changes along a line, round ends would lie over each other as dots.
-    let ends = if matches!(palette, Palette::Few(_)) { "round" } else { "butt" };
+    // Colours along a line are told apart where it is wide; where lines are dense there is no room for that.
+    let wider = if matches!(palette, Palette::Speed { .. }) { 1.0 + ink.feed_weight / FEED_WEIGHT } else { 1.0 };
+    let width = short(ink.feed_weight * wider);
+    // Where the colour changes in steps along a line, round ends would lie over each other as dots; speeds go over into
+    // each other, and hairlines of paper would be seen between them.
+    let ends = if !matches!(palette, Palette::Scale { .. }) { "round" } else { "butt" };
     canvas.open(&format!("stroke-width=\"{width}\" stroke-linecap=\"{ends}\" stroke-linejoin=\"round\""));
     // The slow feeds lie on top: they are few, and dark.
     for (shade, path) in paths.into_iter().enumerate().rev() {
@@ -67,8 +71,20 @@ pub(crate) fn draw_strokes(canvas: &mut Canvas, view: &View, pieces: &[Piece], p
     canvas.close();
 }
 
+/// The pieces of which a view may show a part.
+pub(crate) fn seen<'p>(view: &View, pieces: impl Iterator<Item = &'p Piece>) -> Vec<Piece> {
+    pieces.filter(|piece| view.may_show(&piece.extent())).copied().collect()
+}
+
 /// Adds a solid piece to a path.
 pub(crate) fn draw_feed(path: &mut PathData, view: &View, piece: &Piece, tolerance_mm: f64) {
+    if view.is_window_on(&piece.extent()) {
+        return piece.for_each_line(tolerance_mm, |from, to| {
+            if let Some(part) = view.line(from, to) {
+                path.line(part.from, part.to);
+            }
+        });
+    }
     match piece.curve().filter(|curve| is_ellipse(view, curve)) {
         Some(curve) => draw_ellipse(path, view, piece, &curve),
         None => piece.for_each_line(tolerance_mm, |from, to| path.line(view.place(from), view.place(to))),
@@ -80,6 +96,11 @@ fn is_ellipse(view: &View, curve: &Curve) -> bool {
     let hardly_mm = HARDLY / view.scale;
     let flat = view.projection == Projection::Plan || curve.is_flat();
     flat && curve.is_round_in_plan(hardly_mm) && curve.bend_mm() > hardly_mm
+}
+
+/// The curve of an arc that is drawn as chords.
+fn flattened(view: &View, piece: &Piece) -> Option<Curve> {
+    piece.curve().filter(|curve| view.is_window_on(&piece.extent()) || !is_ellipse(view, curve))
 }
 
 /// Draws an arc in the XY plane exactly; of several turns on top of each other, one.
@@ -100,7 +121,7 @@ fn draw_ellipse(path: &mut PathData, view: &View, piece: &Piece, curve: &Curve) 
 pub(crate) fn chord_tolerance(view: &View, pieces: &[Piece]) -> f64 {
     let mut tolerance_mm = CHORD / view.scale;
     let flattened: Vec<Curve> =
-        pieces.iter().filter_map(Piece::curve).filter(|curve| !is_ellipse(view, curve)).collect();
+        pieces.iter().filter(|piece| piece.arc.is_some()).filter_map(|piece| flattened(view, piece)).collect();
     for _ in 0..8 {
         let chords: usize = flattened.iter().map(|curve| curve.steps(tolerance_mm)).sum();
         if chords <= MOST_CHORDS {
@@ -111,7 +132,8 @@ pub(crate) fn chord_tolerance(view: &View, pieces: &[Piece]) -> f64 {
     tolerance_mm
 }
 
-fn draw_rapids(canvas: &mut Canvas, view: &View, pieces: &[Piece], ink: &Ink) {
+/// Draws the rapids, those on the same line once.
+pub(crate) fn draw_rapids(canvas: &mut Canvas, view: &View, pieces: &[Piece], ink: &Ink) {
     let mut lines = Vec::new();
     let mut drawn = BTreeSet::new();
     let mut arrows = Arrows::default();

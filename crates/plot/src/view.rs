@@ -7,6 +7,11 @@ use crate::rect::Rect;
 /// The cosine of 30°, the slope of the isometric axes being one half.
 pub(crate) const COS_30: f64 = 0.866_025_403_784_438_6;
 
+/// What is drawn as a whole is at most so large, in sheet units: renderers count in single precision.
+const MOST_WHOLE: f64 = 5_000.0;
+/// What is so near to a panel may be seen in it: a line has a width.
+const EDGE: f64 = 10.0;
+
 /// A parallel projection.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Projection {
@@ -85,6 +90,23 @@ impl View {
     /// The part of a line between two points in mm that is seen, on the sheet.
     pub fn line(&self, from: [f64; 3], to: [f64; 3]) -> Option<Clipped> {
         clip(&self.panel, self.place(from), self.place(to))
+    }
+
+    /// True if a part of the box may be seen in the panel.
+    pub fn may_show(&self, extent: &Extent) -> bool {
+        let flat = self.projection.flat_extent(extent);
+        let ([x, y], room) = (flat.middle(), [self.panel.width, self.panel.height]);
+        let apart = [(x - self.middle[0], flat.width), (y - self.middle[1], flat.height)];
+        apart
+            .into_iter()
+            .zip(room)
+            .all(|((apart, size), room)| apart.abs() <= 0.5 * size + (0.5 * room + EDGE) / self.scale)
+    }
+
+    /// True if the panel is a window on a small part of the box: as a whole its picture would be too large to be exact.
+    pub fn is_window_on(&self, extent: &Extent) -> bool {
+        let flat = self.projection.flat_extent(extent);
+        flat.width.max(flat.height) * self.scale > MOST_WHOLE
     }
 
     /// The lowest and highest value of X (`axis` 0) or Y (1) that a plan's panel shows, in mm.

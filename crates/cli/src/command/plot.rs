@@ -1,15 +1,18 @@
 //! `plot`: the tool path as a picture.
 
+mod chart;
+mod driven;
 mod strokes;
 
 use machine::EventKind;
 use meaning::CodeLine;
-use plot::{Drawing, Mark, MarkKind, Title};
+use plot::{Drawing, Look, Mark, MarkKind, Title};
 use report::{Format, render};
 
+use self::driven::Driven;
 use self::strokes::{Strokes, layer};
 use super::{name_of, open, run_through};
-use crate::arguments::PlotArguments;
+use crate::arguments::{LayerArgument, PlotArguments, ViewArgument};
 use crate::failure::Failure;
 use crate::output::{colour_err, say, write_file};
 use crate::show_alarm::show_alarm;
@@ -32,7 +35,15 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
         "html" => return Err(Failure::call("the HTML viewer is not built yet; write .svg or .png")),
         _ => return Err(Failure::call(format!("{}: end the picture's name with .svg or .png", output.display()))),
     };
+    if arguments.chart {
+        return chart::chart(arguments, picture);
+    }
+    agrees(arguments)?;
     let mut session = open(&arguments.file, &arguments.setting)?;
+    let mut driven = Driven::new(&arguments.layers, arguments.around.map(|window| window.1), arguments.exaggerate);
+    if driven.is_wanted() {
+        session.plan_ahead_in_detail();
+    }
     let configuration = session.configuration().clone();
     let (control, machine) = (&configuration.control, &configuration.machine);
     let strokes = Strokes::new(machine);
@@ -49,10 +60,12 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
         let drawing = drawing.get_or_insert_with(|| {
             let mut drawing = Drawing::new(title(name_of(session, event.place.program)));
             drawing.show(&layers);
+            drawing.look(look(arguments));
+            drawing.exaggerate(arguments.exaggerate);
             drawing
         });
         if let Some(stroke) = strokes.of_event(&event.kind, tool) {
-            drawing.stroke(&stroke);
+            driven.draw(drawing, &strokes, session, &event.kind, &stroke);
             runs_along |= strokes.beside(drawing, session.beside(), &event.kind, &stroke);
         }
         if event.kind == EventKind::BlockDone && !std::mem::take(&mut runs_along) {
@@ -85,10 +98,45 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
         Ok(())
     })?;
     let drawing = drawing.unwrap_or_else(|| Drawing::new(title("")));
-    let bytes = match picture {
-        Picture::Svg => drawing.svg().into_bytes(),
-        Picture::Png => drawing.png(arguments.width).map_err(Failure::call)?,
-    };
-    write_file(output, &bytes, &arguments.setting.files(&arguments.file))?;
+    picture.write(arguments, &drawing.svg())?;
     Ok(!alarmed)
+}
+
+impl Picture {
+    /// Writes the picture that this SVG is.
+    fn write(&self, arguments: &PlotArguments, svg: &str) -> Result<(), Failure> {
+        let png;
+        let bytes = match self {
+            Picture::Svg => svg.as_bytes(),
+            Picture::Png => {
+                png = plot::png(svg, arguments.width).map_err(Failure::call)?;
+                &png
+            }
+        };
+        write_file(&arguments.output, bytes, &arguments.setting.files(&arguments.file))
+    }
+}
+
+/// Refuses what contradicts itself.
+fn agrees(arguments: &PlotArguments) -> Result<(), Failure> {
+    let has = |layer| arguments.layers.contains(&layer);
+    let wrong = if has(LayerArgument::Speed) && has(LayerArgument::Actual) {
+        "layer speed colours the path that is driven, layer actual draws it beside another: choose one of them"
+    } else if has(LayerArgument::Speed) && has(LayerArgument::Compensated) {
+        "layer speed is the path of layer compensated in other colours: choose one of them"
+    } else if arguments.exaggerate != 1.0 && !has(LayerArgument::Actual) {
+        "--exaggerate draws the deviation of layer actual larger: add --layers programmed,actual"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::call(wrong))
+}
+
+/// From where the path is seen.
+fn look(arguments: &PlotArguments) -> Look {
+    match (arguments.around, arguments.view) {
+        (Some(window), _) => Look::Around(window.0, window.1),
+        (None, ViewArgument::Plan) => Look::Plan,
+        (None, ViewArgument::Both) => Look::Both,
+    }
 }

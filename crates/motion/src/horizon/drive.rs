@@ -272,7 +272,8 @@ impl Horizon {
         // In its middle the axes may be asked for more than at its ends; what it is uneven by goes with the square of its
         // length, so the rest is cut until that does not matter.
         let length = cell.part[1] - start;
-        let uneven = cell.uneven * (length / cell.length()).powi(2);
+        let left = length / cell.length();
+        let uneven = cell.uneven * left * left;
         let pieces = Reserve::parts(uneven).min(MOST_PIECES);
         let reserve = Reserve::of(uneven / (pieces * pieces) as f64);
         for piece in (0..pieces).rev() {

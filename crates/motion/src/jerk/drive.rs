@@ -101,15 +101,17 @@ impl Drive {
             _ => self.past.push_back(Past { speed, acceleration, seconds }),
         }
         if let Some(leg) = self.plan.legs.get(self.plan.leg) {
-            if seconds >= rest {
+            let spent = self.plan.spent + seconds;
+            // Also where only the sum is rounded up to the whole leg: nothing is left of it then.
+            if seconds >= rest || spent >= leg.seconds {
                 (self.plan.s, self.plan.speed) = (leg.at(leg.seconds).0, self.plan.legs.speed);
                 (self.plan.leg, self.plan.spent) = (self.plan.leg + 1, 0.0);
                 if let Some(next) = self.plan.legs.get(self.plan.leg) {
                     (self.plan.s, self.plan.speed) = (next.s, next.speed);
                 }
             } else {
-                self.plan.spent += seconds;
-                (self.plan.s, self.plan.speed) = leg.at(self.plan.spent);
+                self.plan.spent = spent;
+                (self.plan.s, self.plan.speed) = leg.at(spent);
             }
         }
         let Some(first) = self.past.front_mut() else { return };

@@ -112,6 +112,12 @@ impl<L: Library> Session<L> {
         self.motion.stretches()
     }
 
+    /// Shows where the axes are on the move handed out last, and how fast, with the time since its beginning: straight
+    /// between these places it is left by no more than `tolerance_mm`.
+    pub fn sample(&self, tolerance_mm: f64, see: impl FnMut(f64, &motion::Setpoint)) {
+        self.motion.sample(tolerance_mm, see);
+    }
+
     /// Something has been touched: what follows is no longer what was rehearsed.
     pub fn forget_rehearsal(&mut self) {
         self.rehearsal = None;

@@ -16,6 +16,8 @@ pub fn layer(argument: LayerArgument) -> Layer {
         LayerArgument::Programmed => Layer::Programmed,
         LayerArgument::Compensated => Layer::Compensated,
         LayerArgument::Tool => Layer::Tool,
+        LayerArgument::Speed => Layer::Speed,
+        LayerArgument::Actual => Layer::Actual,
     }
 }
 
