@@ -26,6 +26,8 @@ use crate::way::{Edges, Way, norm};
 
 /// The longest look-ahead, cells. A program of points 1 µm apart is then seen 16 mm ahead.
 pub const MOST_CELLS: usize = 16_384;
+/// Room for so many is there from the beginning, so that driving hardly ever waits for more.
+const USUAL_CELLS: usize = 1024;
 /// Between the ends of a cell an acceleration may be more than at both by this part of what the axes can give. Where a
 /// cell of an arc turns by φ that is up to 5/8 φ²: φ²/8 as the direction turns, φ²/2 as the speed changes meanwhile.
 const UNEVEN: f64 = 0.00225;
@@ -108,10 +110,10 @@ impl Horizon {
             at_feed: Scale::new(&limits, |axis| axis.max_feed),
             at_rapid: Scale::new(&limits, |axis| axis.rapid),
             overrides: Overrides::default(),
-            cells: VecDeque::new(),
-            ways: VecDeque::new(),
+            cells: VecDeque::with_capacity(USUAL_CELLS),
+            ways: VecDeque::with_capacity(USUAL_CELLS),
             first_way: 0,
-            asked: VecDeque::new(),
+            asked: VecDeque::with_capacity(USUAL_CELLS),
             first_move: 0,
             open: None,
             closed: false,
