@@ -1,5 +1,5 @@
-//! What planning costs: `planner chords N` and `planner contour N` plan N moves; `planner live N` drives N servo periods of
-//! the contour with an override turned and a hold now and then, and prints how long one period took.
+//! What planning costs: `planner chords N` and `planner contour N` plan N moves; `planner live N` and
+//! `planner live-chords N` drive N servo periods with an override turned and a hold now and then, and print how long one period took.
 
 #![allow(clippy::disallowed_types, clippy::expect_used)]
 
@@ -76,7 +76,7 @@ fn cpu() -> Duration {
     Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec as u32)
 }
 
-fn live(periods: usize) {
+fn live(periods: usize, make: fn(usize) -> Move) {
     let (mut horizon, mut next) = (horizon(), 0);
     let (mut by_cpu, mut by_wall) = (Vec::with_capacity(periods), Vec::with_capacity(periods));
     let mut far = 0.0f64;
@@ -92,7 +92,7 @@ fn live(periods: usize) {
         let mut left = PERIOD_S;
         while left > 0.0 {
             while horizon.wants_more() {
-                horizon.add(&contour(next));
+                horizon.add(&make(next));
                 next += 1;
             }
             let (rest, ended) = horizon.drive_for(left);
@@ -122,6 +122,7 @@ fn main() {
     match arguments.get(1).map(String::as_str) {
         Some("chords") => plan(number, chord),
         Some("contour") => plan(number, contour),
-        _ => live(number),
+        Some("live-chords") => live(number, chord),
+        _ => live(number, contour),
     }
 }

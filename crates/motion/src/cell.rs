@@ -19,7 +19,8 @@ struct Strip {
     lean: f64,
 }
 
-/// Two strips, of the cell's start and of its end, for every axis.
+/// Two strips, of the cell's start and of its end, for every axis; on a circle three for two of them, at most one for
+/// others.
 const STRIPS: usize = 2 * AXES;
 /// A speed that is the limit itself shall not count as beyond it by a rounding.
 const AT_THE_LIMIT: f64 = 1.0 + 1e-9;
@@ -68,12 +69,51 @@ pub struct Cell {
     pub moves: [u64; 2],
     /// The acceleration along it, mm/s², if it is straight.
     straight: Option<f64>,
-    /// The part of what the axes can give that it uses.
-    pub share: f64,
+    /// By how much more the axes may be asked for in its middle than at its ends, relative.
+    pub uneven: f64,
+    /// The part of the axes' rates that it uses.
+    pub rates: f64,
     /// Its highest point of all, once it has been looked for: `x`, and the `y` that it leads to.
     top: Option<[f64; 2]>,
     strips: [Strip; STRIPS],
     count: usize,
+    /// Those of its end, a bit for each.
+    at_end: u32,
+}
+
+/// What is done about it that between a cell's ends the axes may be asked for more than there.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Reserve {
+    /// How much more that is, relative, at most.
+    pub uneven: f64,
+    /// The parts of the axes' acceleration and rates that are used.
+    share: f64,
+    rates: f64,
+    /// Of a circle, whose middle is looked at too: how far it turns for each mm, squared.
+    round: Option<f64>,
+}
+
+/// So much more is let pass.
+const LET_PASS: f64 = 0.0008;
+
+impl Reserve {
+    /// Of a cell in which the axes may be asked for so much more.
+    pub fn of(uneven: f64) -> Reserve {
+        let share = (1.0 + LET_PASS - uneven).clamp(0.5, 1.0);
+        Reserve { uneven, share, rates: share, round: None }
+    }
+
+    /// Of a cell of a circle that turns by so many radians on so many mm.
+    pub fn round(turned: f64, length: f64) -> Reserve {
+        let (square, per_mm) = (turned * turned, turned / length);
+        let rates = Reserve::of(0.125 * square).share;
+        Reserve { uneven: 0.625 * square, share: 1.0, rates, round: Some(per_mm * per_mm) }
+    }
+
+    /// Into how many parts a stretch as uneven as this is cut, so that nothing has to be left.
+    pub fn parts(uneven: f64) -> usize {
+        (uneven / LET_PASS).sqrt().ceil().max(1.0) as usize
+    }
 }
 
 /// Where in a cell a move ends.
@@ -107,10 +147,12 @@ impl Cell {
             ends: Ends::Not,
             moves: [0; 2],
             straight: None,
-            share: 1.0,
+            uneven: 0.0,
+            rates: 1.0,
             top: None,
             strips: [Strip::default(); STRIPS],
             count: 0,
+            at_end: 0,
         }
     }
 
@@ -128,21 +170,21 @@ impl Cell {
         cell
     }
 
-    /// A part of a bent way between two of its places, using so much of what the axes can give: between the places they
-    /// are asked for more than there.
-    pub fn bent(scale: &Scale, way: u64, part: [f64; 2], edges: [&Edge; 2], share: f64) -> Cell {
+    /// A part of a bent way between two of its places.
+    pub fn bent(scale: &Scale, way: u64, part: [f64; 2], edges: [&Edge; 2], reserve: &Reserve) -> Cell {
         let mut cell = Cell::new(way, part);
-        cell.bend(scale, edges, share);
+        cell.bend(scale, edges, reserve);
         cell
     }
 
     /// Bends a new cell.
     #[inline]
-    pub fn bend(&mut self, scale: &Scale, [start, end]: [&Edge; 2], share: f64) {
-        let per_u = 0.5 / self.length();
+    pub fn bend(&mut self, scale: &Scale, [start, end]: [&Edge; 2], reserve: &Reserve) {
+        let length = self.length();
+        let per_u = 0.5 / length;
         let (mut fastest, mut hardest) = (0.0f64, 0.0f64);
         let (mut first, mut last) = (0.0, 0.0);
-        self.share = share;
+        (self.uneven, self.rates) = (reserve.uneven, reserve.rates);
         for axis in 0..scale.count.min(AXES) {
             let (slopes, bends) = ([start.slope[axis], end.slope[axis]], [start.bend[axis], end.bend[axis]]);
             if slopes == [0.0; 2] && bends == [0.0; 2] {
@@ -150,19 +192,35 @@ impl Cell {
             }
             first += slopes[0] * slopes[0];
             last += slopes[1] * slopes[1];
-            let given = scale.acceleration[axis] * share;
+            let given = scale.acceleration[axis] * reserve.share;
             fastest = fastest.max(slopes[0].abs().max(slopes[1].abs()) * scale.per_rate[axis]);
             hardest = hardest.max(bends[0].abs().max(bends[1].abs()) * scale.per_acceleration[axis]);
             let across = slopes.map(|slope| slope * per_u);
-            if let Some(strips) = self.strips.get_mut(self.count..self.count + 2) {
-                strips[0] = Strip::new(bends[0] - across[0], across[0], given);
-                strips[1] = Strip::new(-across[1], bends[1] + across[1], given);
-                self.count += 2;
+            self.add_strip(bends[0] - across[0], across[0], given);
+            if bends == [0.0; 2] && slopes[0] == slopes[1] {
+                continue;
+            }
+            self.add_strip(-across[1], bends[1] + across[1], given);
+            self.at_end |= 1 << (self.count - 1);
+            if let Some(round) = reserve.round {
+                // What an axis is asked for lies below the lines that touch it at both ends: their meeting.
+                let twist = round * length / 4.0;
+                let across = (across[0] + across[1]) / 2.0 + 0.375 * (bends[0] - bends[1]);
+                let (x_part, y_part) = (bends[0] / 2.0 - twist * slopes[0], bends[1] / 2.0 + twist * slopes[1]);
+                self.add_strip(x_part - across, y_part + across, given);
             }
         }
-        self.rates_allow = (share * share) / (fastest * fastest);
-        self.axes_allow = (share / hardest).min(self.rates_allow);
+        self.rates_allow = (reserve.rates * reserve.rates) / (fastest * fastest);
+        self.axes_allow = (reserve.share / hardest).min(self.rates_allow);
         self.pace = f64::max(first, last);
+    }
+
+    /// `|x_part x + y_part y| ≤ given`.
+    fn add_strip(&mut self, x_part: f64, y_part: f64, given: f64) {
+        if let Some(strip) = self.strips.get_mut(self.count) {
+            *strip = Strip::new(x_part, y_part, given);
+            self.count += 1;
+        }
     }
 
     /// The rest of a straight one.
@@ -348,7 +406,7 @@ impl Cell {
         let double = 2.0 * self.length();
         for (index, strip) in self.strips[..self.count].iter().enumerate() {
             let (x_part, y_part) = (1.0 / strip.half, strip.lean / strip.half);
-            if index % 2 == 0 {
+            if self.at_end >> index & 1 == 0 {
                 // |slope u + bend x| ≤ 1 at the start, where the slope is y's part.
                 let (slope, bend) = (y_part * double, x_part + y_part);
                 hardest = hardest.min((1.0 + bend * x * slope.signum()) / slope.abs()).min(1.0 / slope.abs());

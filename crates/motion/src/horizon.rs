@@ -18,7 +18,7 @@ use meaning::Feed;
 use drive::Drive;
 pub use drive::{Leg, Setpoint};
 
-use crate::cell::{Cell, Ends};
+use crate::cell::{Cell, Ends, Reserve};
 use crate::corner::{Corner, corner, round};
 use crate::limits::{AxisLimits, Limits, Scale};
 use crate::overrides::Overrides;
@@ -26,16 +26,16 @@ use crate::way::{Edges, Way, norm};
 
 /// The longest look-ahead, cells. A program of points 1 µm apart is then seen 16 mm ahead.
 pub const MOST_CELLS: usize = 16_384;
+/// Room for so many is there from the beginning, so that driving hardly ever waits for more.
+const USUAL_CELLS: usize = 1024;
 /// Between the ends of a cell an acceleration may be more than at both by this part of what the axes can give. Where a
 /// cell of an arc turns by φ that is up to 5/8 φ²: φ²/8 as the direction turns, φ²/2 as the speed changes meanwhile.
 const UNEVEN: f64 = 0.00225;
-/// So much of it is let pass; by the rest less is used of what the axes can give.
-const LET_PASS: f64 = 0.0008;
 /// Speed may change by so much more between the places of a blend that are looked at.
 const MORE: f64 = 1.2;
 /// Radians that a cell of an arc turns at most; and where it is driven from rest to rest at changing speeds, which are
 /// lost on by 0.15 of that.
-const WIDEST: f64 = 0.16;
+const WIDEST: f64 = 0.27;
 const FINEST: f64 = 0.004;
 /// Most cells of a single way.
 const MOST_OF_A_WAY: usize = 1600;
@@ -110,10 +110,10 @@ impl Horizon {
             at_feed: Scale::new(&limits, |axis| axis.max_feed),
             at_rapid: Scale::new(&limits, |axis| axis.rapid),
             overrides: Overrides::default(),
-            cells: VecDeque::new(),
-            ways: VecDeque::new(),
+            cells: VecDeque::with_capacity(USUAL_CELLS),
+            ways: VecDeque::with_capacity(USUAL_CELLS),
             first_way: 0,
-            asked: VecDeque::new(),
+            asked: VecDeque::with_capacity(USUAL_CELLS),
             first_move: 0,
             open: None,
             closed: false,
@@ -211,10 +211,11 @@ impl Horizon {
         if length <= 0.0 {
             return;
         }
-        let (mut pieces, mut share) = (1, 1.0);
+        let (mut pieces, mut reserve) = (1, Reserve::of(0.0));
         if let Way::Arc { arc, length: whole } = &open.way {
             // On a spiral the direction turns up to twice as fast as the spoke.
-            let part = if arc.radius[0] == arc.radius[1] { length / whole } else { 2.0 * length / whole };
+            let is_even = arc.radius[0] == arc.radius[1];
+            let part = if is_even { length / whole } else { 2.0 * length / whole };
             let turned = arc.sweep.abs() * part;
             let mut widest = WIDEST;
             if to_rest && open.from_rest {
@@ -222,10 +223,11 @@ impl Horizon {
             }
             pieces = ((turned / widest).ceil() as usize).clamp(1, MOST_OF_A_WAY);
             let each = turned / pieces as f64;
-            share = share_of(0.625 * each * each);
+            reserve =
+                if is_even { Reserve::round(each, length / pieces as f64) } else { Reserve::of(0.625 * each * each) };
         }
         let first = self.cells.len();
-        self.push((open.number, &open.way), [open.from, end], (pieces, share), [open.mover; 2]);
+        self.push((open.number, &open.way), [open.from, end], (pieces, reserve), [open.mover; 2]);
         if let Some(cell) = self.cells.get_mut(first) {
             cell.enters = open.enters;
         }
@@ -263,14 +265,14 @@ impl Horizon {
         let uneven = uneven.max(0.625 * turned * turned);
         let pieces = ((uneven / UNEVEN).sqrt().ceil().max(1.0) as usize).min(MOST_OF_A_WAY);
         if pieces <= 1 {
-            self.push((number, blend), [0.0, length], (1, share_of(uneven)), movers);
+            self.push((number, blend), [0.0, length], (1, Reserve::of(uneven)), movers);
             return self.end_move(Ends::At(length / 2.0), false);
         }
         let half = pieces.div_ceil(2);
-        let share = share_of(uneven / (4 * half * half) as f64);
-        self.push((number, blend), [0.0, length / 2.0], (half, share), movers);
+        let reserve = Reserve::of(uneven / (4 * half * half) as f64);
+        self.push((number, blend), [0.0, length / 2.0], (half, reserve), movers);
         self.end_move(Ends::AtEnd, false);
-        self.push((number, blend), [length / 2.0, length], (half, share), movers);
+        self.push((number, blend), [length / 2.0, length], (half, reserve), movers);
     }
 
     /// The highest acceleration along a direction that no axis is asked too much by.
@@ -284,7 +286,7 @@ impl Horizon {
         &mut self,
         (number, way): (u64, &Way),
         [from, to]: [f64; 2],
-        (pieces, share): (usize, f64),
+        (pieces, reserve): (usize, Reserve),
         moves: [u64; 2],
     ) {
         let (scale, asked) = (*self.scale(moves), self.slowest(moves));
@@ -300,7 +302,7 @@ impl Horizon {
             let next = edges.next();
             self.cells.push_back(Cell::new(number, [start, end]));
             if let Some(cell) = self.cells.back_mut() {
-                cell.bend(&scale, [&edge, &next], share);
+                cell.bend(&scale, [&edge, &next], &reserve);
             }
             self.end_cut(moves, asked);
             (start, edge) = (end, next);
@@ -381,7 +383,7 @@ impl Horizon {
             if let Some(way) = self.way(cell.way) {
                 for edge in cell.part.map(|s| way.slope(s)) {
                     for (limit, slope) in self.limits.axes.iter().zip(edge).take(self.limits.count) {
-                        let fastest = rate(limit) / slope;
+                        let fastest = rate(limit) * cell.rates / slope;
                         allows = allows.min(fastest * fastest);
                     }
                 }
@@ -410,11 +412,6 @@ impl Horizon {
         self.settled = 0;
         self.look_again();
     }
-}
-
-/// The part of what the axes can give that a cell uses which is as uneven as this.
-fn share_of(uneven: f64) -> f64 {
-    (1.0 + LET_PASS - uneven).clamp(0.5, 1.0)
 }
 
 /// How far the axes move for each mm of a way: one, but for spirals.

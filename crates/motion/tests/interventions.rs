@@ -132,7 +132,7 @@ fn stands_at(program: &Program, period: usize) -> f64 {
 #[test]
 fn single_block_stands_at_the_first_end_at_which_it_can() {
     // Ends at each 4 mm, some corners among them; 10 mm are needed from full speed.
-    let at = |n: usize| [4.0 * n as f64, if n % 3 == 0 { 0.01 } else { 0.0 }, 0.0];
+    let at = |n: usize| [4.0 * n as f64, if n.is_multiple_of(3) { 0.01 } else { 0.0 }, 0.0];
     let program = program((0..25).map(|n| line(at(n), at(n + 1), FAST)).collect());
     for period in (1..500).step_by(3) {
         let horizon = driven(&program, period);

@@ -2,8 +2,8 @@
 
 use base::{AXES, Point};
 
-use super::{Horizon, LET_PASS, share_of};
-use crate::cell::{Cell, Ends};
+use super::Horizon;
+use crate::cell::{Cell, Ends, Reserve};
 use crate::way::{Edge, Way};
 
 /// A rest of way shorter than this is none, mm.
@@ -272,16 +272,16 @@ impl Horizon {
         // In its middle the axes may be asked for more than at its ends; what it is uneven by goes with the square of its
         // length, so the rest is cut until that does not matter.
         let length = cell.part[1] - start;
-        let uneven =
-            if cell.share < 1.0 { 1.0 + LET_PASS - cell.share } else { 0.0 } * (length / cell.length()).powi(2);
-        let pieces = ((uneven / LET_PASS).sqrt().ceil() as usize).clamp(1, MOST_PIECES);
-        let share = share_of(uneven / (pieces * pieces) as f64);
+        let left = length / cell.length();
+        let uneven = cell.uneven * left * left;
+        let pieces = Reserve::parts(uneven).min(MOST_PIECES);
+        let reserve = Reserve::of(uneven / (pieces * pieces) as f64);
         for piece in (0..pieces).rev() {
             let is_last = piece + 1 == pieces;
             let [from, to] = [piece, piece + 1].map(|piece| start + length * piece as f64 / pieces as f64);
             let part = [from, if is_last { cell.part[1] } else { to }];
             let edges = part.map(|s| Edge::new(&way, s));
-            let mut rest = Cell::bent(self.scale(cell.moves), cell.way, part, [&edges[0], &edges[1]], share);
+            let mut rest = Cell::bent(self.scale(cell.moves), cell.way, part, [&edges[0], &edges[1]], &reserve);
             rest.ends = match cell.ends {
                 Ends::At(border) if border <= part[1] && (border > from || piece == 0) => Ends::At(border),
                 Ends::AtEnd if is_last => Ends::AtEnd,

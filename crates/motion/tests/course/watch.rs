@@ -255,8 +255,9 @@ impl Watch<'_> {
             })
             .sum();
         // Not where it may have turned round within the period.
+        let far = (dt * speed.max(norm(&self.last.velocity))).max(apart(&now.position, &self.last.position));
         let turns = around.clone().any(|index| match &self.program.moves[index].way {
-            Way::Arc { arc, .. } => arc.radius[0].min(arc.radius[1]) < 4.0 * dt * speed.max(norm(&self.last.velocity)),
+            Way::Arc { arc, .. } => arc.radius[0].min(arc.radius[1]) < 4.0 * far,
             _ => false,
         });
         let is_one_move = std::mem::replace(&mut self.last_index, self.index) == self.index;
