@@ -3,8 +3,8 @@
 //! Comes in: shapes. Goes out: the same shapes, each move with its duration and path length. Must never know: what
 //! the machine does with them, and what time it is; time is counted from zero by whoever adds the durations up.
 //!
-//! As built: every move starts and ends at rest and accelerates along a trapezoid. Looking ahead over block borders
-//! comes later and changes durations only.
+//! Moves run into each other where the control lets them ([`Horizon`] looks ahead as far as that asks); docs/motion.md
+//! derives how. Who does not plan gets every move from rest to rest.
 
 mod cell;
 mod classic;
