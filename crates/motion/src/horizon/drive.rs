@@ -98,6 +98,7 @@ impl Horizon {
     /// squared speed that the axes allow there.
     pub fn drive_move(&mut self, mut leg: impl FnMut(&Way, f64, &Leg)) -> f64 {
         let mut seconds = 0.0;
+        self.set_live(false);
         while self.begin_cell() {
             while let Some(next) = self.leg() {
                 let rest = next.seconds - self.drive.spent;
@@ -123,6 +124,7 @@ impl Horizon {
     /// Drives for a time, at most to the end of the next move: the time that is left over, and whether the move has
     /// ended.
     pub fn drive_for(&mut self, mut seconds: f64) -> (f64, bool) {
+        self.set_live(true);
         while self.begin_cell() {
             while let Some(next) = self.leg() {
                 let rest = next.seconds - self.drive.spent;
