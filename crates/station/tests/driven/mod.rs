@@ -142,6 +142,10 @@ pub fn drive(session: &mut Session<Texts>, most: u64, hand: &mut Hand, figures: 
             look.paths.leave();
             continue;
         }
+        if session.alarm().is_some() {
+            // A move that is refused on its way ends where it is refused: nothing has been planned to there.
+            look.last = None;
+        }
         let stands = Setpoint { position: session.position(), velocity: [0.0; AXES] };
         let setpoint = match session.setpoint() {
             // One move has just ended and the next one not begun.
@@ -153,7 +157,9 @@ pub fn drive(session: &mut Session<Texts>, most: u64, hand: &mut Hand, figures: 
         };
         look.at(&setpoint).map_err(|what| format!("period {now}: {what}"))?;
     }
-    look.paths.end();
+    if last && !hand.is_on() {
+        look.paths.end();
+    }
     look.off_the_path()
 }
 

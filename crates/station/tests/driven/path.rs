@@ -63,21 +63,16 @@ impl Paths {
         self.waiting[1].push(*position);
     }
 
-    /// The axes have been elsewhere.
+    /// The axes have been elsewhere: what waits for a move is not looked at, as that may be the one given up.
     pub fn leave(&mut self) {
-        self.end();
+        self.waiting.iter_mut().for_each(Vec::clear);
         self.told.clear();
     }
 
-    /// The axes stand: no move comes that setpoints wait for.
+    /// All moves have been told.
     pub fn end(&mut self) {
-        for index in 0..2 {
-            let ready = std::mem::take(&mut self.waiting[index]);
-            // Those seen since the last move was told may lie on one that was given up: nothing is known of it.
-            if index == 0 {
-                self.check(&ready);
-            }
-        }
+        let ready = std::mem::take(&mut self.waiting[0]);
+        self.check(&ready);
     }
 
     fn check(&mut self, places: &[Point]) {
@@ -132,5 +127,5 @@ fn distance(way: &Way, place: &Point, enough: f64) -> f64 {
             break;
         }
     }
-    apart((low + high) / 2.0)
+    apart(low).min(apart((low + high) / 2.0))
 }
