@@ -7,6 +7,7 @@
 //! it may be slower.
 
 mod drive;
+mod legs;
 mod settle;
 mod stand;
 
