@@ -303,6 +303,12 @@ conditions! {
     ProgramProtected = "program-protected",
 
     // The machine.
+    /// The machine has not answered a code. Values: its letter and number, the time waited.
+    FinMissing = "fin-missing",
+    /// The machine has answered a code before its strobe. Values: its letter and number.
+    FinEarly = "fin-early",
+    /// The machine does not take its answer back. Values: the code's letter and number, the time waited.
+    FinStuck = "fin-stuck",
     /// The move leaves the axis' travel. Values: where it would go, lower limit, upper limit.
     TravelExceeded = "travel-exceeded",
     /// The move enters the forbidden box of the second stored stroke. Values: where, along X, Y, Z.

@@ -1,5 +1,6 @@
 //! A program in execution: the stages chained, their questions answered, their events handed out one by one.
 
+mod awaiting;
 mod barriers;
 mod execution;
 mod live;
@@ -103,6 +104,10 @@ pub struct Session<L> {
     begun: Option<u64>,
     /// Codes have gone out in the block in execution.
     codes_out: bool,
+    /// A block that has closed but for its codes.
+    closing: awaiting::Closing,
+    /// What comes next waits for codes.
+    awaited: bool,
     stopped: bool,
     /// By FEED HOLD.
     feed_held: bool,
@@ -138,6 +143,7 @@ impl<L: Library> Session<L> {
         let mut virtual_machine = VirtualMachine::new(&machine, start, fitting.policies.stroke_check);
         virtual_machine.set_contact(contact);
         virtual_machine.set_skip(inputs.skip);
+        virtual_machine.wire(awaiting::decoded_lines(&configuration));
         let motion = Motion::new(Path::new(interpreter, start), machine.limits());
         let mut session = Session {
             motion,
@@ -173,6 +179,8 @@ impl<L: Library> Session<L> {
             told: None,
             begun: None,
             codes_out: false,
+            closing: None,
+            awaited: false,
             stopped: false,
             feed_held: false,
             powered: true,
@@ -396,7 +404,7 @@ impl<L: Library> Session<L> {
     /// The place of a block of which nothing has been executed yet, told once for each; `None` if something else
     /// comes first.
     pub fn block_begins(&mut self) -> Option<Place> {
-        let busy = !self.has_told_all() || self.under_way.is_some();
+        let busy = !self.has_told_all() || self.under_way.is_some() || self.closing.is_some();
         if busy || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
             return None;
         }

@@ -75,7 +75,7 @@ impl<L: Library> Session<L> {
     /// Time passes in which nothing happens.
     pub fn let_time_pass(&mut self, until: Seconds) {
         if self.under_way.is_none() {
-            self.machine.stand_until(until);
+            self.machine.stand_until(until, &mut self.events);
         }
     }
 
@@ -138,6 +138,8 @@ impl<L: Library> Session<L> {
         let seconds = (until - self.machine.time().0 - under_way.elapsed).max(0.0);
         let (left, ended) = self.motion.drive_for(seconds);
         under_way.elapsed += if ended { seconds - left } else { seconds };
+        let now = self.time();
+        self.machine.pass_signals(now, &mut self.events);
         ended
     }
 

@@ -171,7 +171,7 @@ impl<L: Library> Session<L> {
         let passed = self.machine.time() - since;
         if self.motion.plans() && passed.0 > 0.0 {
             let longer = self.motion.pass(passed.0);
-            self.machine.stand_until(self.machine.time() + Seconds(longer));
+            self.machine.stand_until(self.machine.time() + Seconds(longer), &mut self.events);
         }
     }
 
@@ -258,6 +258,8 @@ impl<L: Library> Session<L> {
             between_blocks: false,
             told: None,
             begun: self.begun,
+            closing: None,
+            awaited: false,
             codes_out: self.codes_out,
             stopped: false,
             feed_held: false,

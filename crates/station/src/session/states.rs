@@ -94,6 +94,7 @@ impl<L: Library> Session<L> {
             return;
         }
         self.codes.clear();
+        self.closing = None;
         self.motion.upstream.stand_at(&position);
         self.between_blocks = true;
         self.pulled = false;
@@ -156,7 +157,9 @@ impl<L: Library> Session<L> {
 
     /// Whatever is under way is dropped.
     fn drop_work(&mut self) {
-        self.machine.drop_codes();
+        self.machine.drop_codes(&mut self.events);
+        self.closing = None;
+        self.awaited = false;
         self.codes.clear();
         self.between_blocks = true;
         self.pulled = false;
