@@ -22,7 +22,26 @@ import surface
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", "target")).absolute()
 COUNTING, FAST = TARGET / "counting", TARGET / "fast"
 COUNTS = COUNTING / "counts.profdata"
-BUILD = ["cargo", "build", "--release", "--locked", "--quiet", "-p", "cyclestart"]
+BUILD = ["cargo", "build", "--release", "--locked", "--quiet"]
+PROGRAM = ["-p", "cyclestart"]
+# With the planner on its own, which benches/planner.py measures: the same crate, the same counts.
+PROGRAM_AND_PLANNER = [*PROGRAM, "-p", "motion", "--bin", "cyclestart", "--example", "planner"]
+# What an operator does while a part is cut, so that live execution is counted too.
+SHIFT = """load {part} as O7000
+mode memory
+select O7000
+offset 1 = 3
+cycle-start
+run for 2
+override feed 60
+run for 1
+feed-hold
+run for 1
+cycle-start
+override feed 150
+run for 20
+reset
+"""
 FREE = ["--machine", "unlimited", "--offset", "1=3"]
 
 
@@ -39,10 +58,10 @@ def merger() -> Path:
     return tool
 
 
-def build(target: Path, flag: str) -> Path:
+def build(target: Path, flag: str, what: list[str]) -> Path:
     """Builds with a flag more, in a folder of its own."""
     flags = f"{os.environ.get('RUSTFLAGS', '')} {flag}".strip()
-    subprocess.run([*BUILD, "--target-dir", str(target)], check=True, env=dict(os.environ, RUSTFLAGS=flags))
+    subprocess.run([*BUILD, *what, "--target-dir", str(target)], check=True, env=dict(os.environ, RUSTFLAGS=flags))
     return target / "release" / "cyclestart"
 
 
@@ -79,6 +98,10 @@ def train(program: Path, raw: Path) -> None:
             go("trace", str(path), *FREE)
         for path in parts:
             go("run", str(path), *FREE)
+        for path in parts:
+            script = path.with_suffix(".txt")
+            script.write_text(SHIFT.format(part=path), encoding="ascii")
+            go("operate", str(script), *FREE[:2])
         go("plot", str(parts[0]), *FREE, "-o", f"{folder}/part.svg")
     for example in sorted(Path("examples").rglob("*.nc")):
         for command in ("check", "trace", "run"):
@@ -90,7 +113,7 @@ def main() -> int:
     quiet = "--quiet" in sys.argv[1:]
     if not quiet:
         print("fast: two builds and a trial run between them, some minutes the first time", flush=True)
-    counting = build(COUNTING, f"-Cprofile-generate={COUNTING}/raw")
+    counting = build(COUNTING, f"-Cprofile-generate={COUNTING}/raw", PROGRAM)
     if not COUNTS.is_file() or COUNTS.stat().st_mtime < counting.stat().st_mtime:
         raw = COUNTING / "raw"
         shutil.rmtree(raw, ignore_errors=True)
@@ -99,7 +122,7 @@ def main() -> int:
         shutil.rmtree(raw)
         # What was built with the counts before is to be built again.
         shutil.rmtree(FAST, ignore_errors=True)
-    program = build(FAST, f"-Cprofile-use={COUNTS}")
+    program = build(FAST, f"-Cprofile-use={COUNTS}", PROGRAM_AND_PLANNER)
     if not quiet:
         print(f"fast: {program}")
     return 0

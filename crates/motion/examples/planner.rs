@@ -1,5 +1,6 @@
-//! What planning costs: `planner chords N` and `planner contour N` plan N moves; `planner live N` and
-//! `planner live-chords N` drive N servo periods with an override turned and a hold now and then, and print how long one period took.
+//! What planning costs: `planner chords N` and `planner contour N` plan N moves; `planner live N` (the contour) and
+//! `planner live-chords N` drive N servo periods with an override turned and a hold now and then, and print how long one
+//! period took.
 
 #![allow(clippy::disallowed_types, clippy::expect_used)]
 

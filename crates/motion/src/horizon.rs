@@ -7,6 +7,7 @@
 //! it may be slower.
 
 mod drive;
+mod legs;
 mod settle;
 mod stand;
 
@@ -99,6 +100,9 @@ pub struct Horizon {
     looked: usize,
     /// So many cells are to be seen before looking again.
     goal: usize,
+    /// Setpoints are driven one by one, and so many more moves may be asked for at this one.
+    is_live: bool,
+    spare: usize,
     drive: Drive,
 }
 
@@ -120,6 +124,8 @@ impl Horizon {
             settled: 0,
             looked: 0,
             goal: 0,
+            is_live: false,
+            spare: 0,
             drive: Drive::default(),
         }
     }

@@ -10,6 +10,8 @@ use motion::{AxisLimits, JerkHorizon, Leg, Limits, Move, Overrides, SCurve, Way}
 
 /// What a limit may be exceeded by: 1.001 is asked of the planner.
 const WIDE: f64 = 1.0 + 1e-6;
+/// The same of what a drive would see of the jerk.
+const SEEN: f64 = 1.001;
 /// As the planner's own rounding, mm, mm/s and mm/s².
 const ROUNDING: [f64; 3] = [1e-8, 1e-8, 1e-5];
 
@@ -287,13 +289,9 @@ fn walk(limits: &Limits, moves: &[Move], dice: &mut Dice, meddle: bool) -> (usiz
             |axis| axis.acceleration,
             1e-5,
         );
-        check(
-            "jerk seen",
-            limits,
-            &difference([1.0, -3.0, 3.0, -1.0], period * period * period),
-            |axis| axis.jerk,
-            1e-1,
-        );
+        // Lines that go over into each other unnoticed change an acceleration by 2e-4 of that.
+        let jerks = difference([1.0, -3.0, 3.0, -1.0], period * period * period);
+        check("jerk seen", limits, &jerks.map(|jerk| jerk / SEEN), |axis| axis.jerk, 1e-1);
         periods += 1;
         assert!(periods < 1_000_000, "never arrives");
         if !meddle {

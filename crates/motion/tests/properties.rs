@@ -4,14 +4,35 @@
 
 mod course;
 
+use std::cell::Cell;
+
 use course::program::{Program, program};
 use course::random::{Random, over_seeds};
-use course::watch::{Act, move_times, watch};
+use course::watch::{Act, Run, move_times, watch};
 use motion::Overrides;
 
 const PROGRAMS: u64 = 200;
 /// How far two ways of driving may differ in the time of a whole program, relative: rounding.
 const ROUNDING: f64 = 1e-9;
+
+/// How many programs were driven, and the highest part of any limit that was asked for: velocity, acceleration.
+#[derive(Default)]
+struct Highest(Cell<(u64, f64, f64)>);
+
+impl Highest {
+    fn add(&self, run: &Run) {
+        let (programs, velocity, acceleration) = self.0.get();
+        let hardest = run.acceleration.max(run.quotient);
+        self.0.set((programs + 1, velocity.max(run.velocity), acceleration.max(hardest)));
+    }
+
+    fn tell(&self, what: &str) {
+        let (programs, velocity, acceleration) = self.0.get();
+        println!(
+            "{programs} programs, {what}: highest part of the limit: velocity {velocity:.6}, acceleration {acceleration:.6}"
+        );
+    }
+}
 
 /// Runs a check over many programs.
 fn over_programs(check: impl Fn(u64, &Program) -> Result<(), String>) {
@@ -34,10 +55,13 @@ fn agree(one: &[f64], other: &[f64], what: &str) -> Result<(), String> {
 
 #[test]
 fn nothing_is_passed_and_nothing_is_left() {
+    let highest = Highest::default();
     over_programs(|_, program| {
         let run = watch(program, &[])?;
+        highest.add(&run);
         agree(&run.times, &move_times(program, false), "period by period, and move by move")
     });
+    highest.tell("nobody at the switches");
 }
 
 #[test]
@@ -49,6 +73,7 @@ fn the_time_does_not_depend_on_how_much_is_seen_beyond_what_is_asked_for() {
 
 #[test]
 fn the_operator_may_do_what_he_likes_when_he_likes() {
+    let highest = Highest::default();
     over_programs(|seed, program| {
         let mut random = Random::new(seed ^ 0xACE5);
         let seconds: f64 = move_times(program, false).iter().sum();
@@ -77,6 +102,7 @@ fn the_operator_may_do_what_he_likes_when_he_likes() {
         at += random.below(200);
         acts.push((at, Act::Hold(false)));
         acts.push((at, Act::Override(Overrides::default())));
-        watch(program, &acts).map(|_| ()).map_err(|what| format!("{what}\n   {acts:?}"))
+        watch(program, &acts).map(|run| highest.add(&run)).map_err(|what| format!("{what}\n   {acts:?}"))
     });
+    highest.tell("overrides, holds, single block and DRY RUN thrown in");
 }

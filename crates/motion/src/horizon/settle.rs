@@ -6,6 +6,9 @@ use crate::cell::Ends;
 /// Cells that are looked at together at least.
 const BATCH: usize = 64;
 
+/// Moves that are asked for at a setpoint before they are needed.
+const AT_A_TIME: usize = 4;
+
 impl Horizon {
     /// True while more of what follows would let the next move be driven faster, or might; with nothing more to come,
     /// [`Horizon::stop`] says so.
@@ -15,15 +18,30 @@ impl Horizon {
             self.settle();
             return false;
         }
-        if seen < self.goal {
+        if seen < self.goal && !self.is_live {
             return true;
         }
-        self.settle();
-        if self.next_is_settled() {
-            return false;
+        if seen >= self.goal {
+            self.settle();
         }
-        self.goal = (seen + (seen - self.settled).max(BATCH)).min(MOST_CELLS);
+        let unsettled = (seen - self.settled).max(BATCH);
+        let is_enough = self.next_is_settled();
+        if is_enough {
+            if self.spare == 0 || self.settled >= unsettled {
+                return false;
+            }
+            self.spare -= 1;
+        }
+        if seen >= self.goal {
+            self.goal = (seen + unsettled).min(MOST_CELLS);
+        }
         true
+    }
+
+    /// Setpoints are asked for one by one: so that no one of them takes long, a few moves are asked for at each, before
+    /// they are needed. Or whole moves are driven.
+    pub(super) fn set_live(&mut self, is_live: bool) {
+        (self.is_live, self.spare) = (is_live, if is_live { AT_A_TIME } else { 0 });
     }
 
     /// The cells have changed, so their speeds are to be found anew.
@@ -43,7 +61,7 @@ impl Horizon {
     fn next_is_settled(&self) -> bool {
         let end = self.next_end();
         // What is driven in a cell depends on the speed with which the next may begin.
-        end.is_some_and(|end| end + 1 < self.settled || self.cells[end].stops)
+        end.is_some_and(|end| end + 1 < self.settled || (self.cells[end].stops && end < self.looked))
     }
 
     /// The highest speed that may be driven at the end of a cell.

@@ -234,7 +234,11 @@ impl JerkHorizon {
         match stroke.leg() {
             Some(leg) => Some((leg, false)),
             None if stroke.has_arrived() => Some((Leg { s: piece.end(), ..Leg::default() }, true)),
-            None => None,
+            None => {
+                // It stands, whatever speed rounding has left at the end of its last leg.
+                self.drive.here = stroke.here();
+                None
+            }
         }
     }
 

@@ -39,9 +39,10 @@ impl<L: Library> Session<L> {
         (!is_up).then_some(step)
     }
 
-    /// True if the time that was given is over.
+    /// True if the time that was given is over: but for rounding, which leaves less than can be added to the time.
     pub(super) fn is_time_up(&self) -> bool {
-        self.deadline.is_some_and(|deadline| self.time().0 >= deadline.0)
+        let now = self.time().0 + ON_THE_DOT * self.servo_period;
+        self.deadline.is_some_and(|deadline| now >= deadline.0)
     }
 
     /// Where the axes are and how fast, while a move is under way.
