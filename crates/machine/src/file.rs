@@ -150,7 +150,7 @@ impl MachineFile {
     pub fn limit_switches(&self) -> Vec<LimitSwitch> {
         let of = |(axis, row): (usize, &MachineAxis)| {
             let [low, high] = row.limit_switches?;
-            Some([(false, low), (true, high)].map(|(positive, at)| LimitSwitch { axis, positive, at }))
+            Some([(false, low), (true, high)].map(|(positive, at)| LimitSwitch { axis, positive, at, on: false }))
         };
         self.axes.iter().enumerate().filter_map(of).flatten().collect()
     }

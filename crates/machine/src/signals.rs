@@ -6,7 +6,6 @@
 mod handshake;
 mod spindle;
 
-use base::AxisSet;
 use meaning::CodeLine;
 
 pub use handshake::{Fin, Handshake, Moment, Trouble, Waiting};
@@ -97,6 +96,8 @@ pub struct LimitSwitch {
     pub positive: bool,
     /// The machine coordinate at which it turns on, mm or degrees.
     pub at: f64,
+    /// It was on at the last look.
+    pub on: bool,
 }
 
 impl LimitSwitch {
@@ -106,9 +107,9 @@ impl LimitSwitch {
         if self.positive { at >= self.at } else { at <= self.at }
     }
 
-    /// The axis alone.
-    pub fn axes(&self) -> AxisSet {
-        AxisSet::only(self.axis)
+    /// Its line.
+    pub const fn signal(&self) -> Signal {
+        Signal::Limit(self.axis as u8, self.positive)
     }
 }
 

@@ -74,6 +74,8 @@ pub struct VirtualMachine {
     skip: bool,
     contact: Vec<(usize, f64)>,
     was_skipped: bool,
+    /// The signal has come while the move was under way, here.
+    skipped_at: Option<Point>,
     rates: Option<Point>,
     stroke_check: StrokeCheck,
     times: CodeTimes,
@@ -107,6 +109,7 @@ impl VirtualMachine {
             skip: false,
             contact: Vec::new(),
             was_skipped: false,
+            skipped_at: None,
             rates: (!file.path.straight_rapid).then(|| file.rapid_rates()),
             stroke_check,
             times: file.times.clone(),
@@ -132,6 +135,16 @@ impl VirtualMachine {
         self.skip = on;
     }
 
+    /// The skip signal comes in the middle of the move under way, at this place.
+    pub fn skip_at(&mut self, at: Option<Point>) {
+        self.skipped_at = at.map(|at| at.map(|coordinate| (coordinate * 1e6).round() / 1e6));
+    }
+
+    /// True if nothing is known yet of when the skip signal comes.
+    pub fn awaits_skip(&self) -> bool {
+        !self.skip && self.contact.is_empty()
+    }
+
     /// Where the skip signal comes: axes and machine coordinates, mm or degrees.
     pub fn set_contact(&mut self, contact: Vec<(usize, f64)>) {
         self.contact = contact;
@@ -141,6 +154,9 @@ impl VirtualMachine {
     ///
     /// An axis that begins on a face of the contact does not cross it: it may be moving away.
     fn until_signal(&self, from: &Point, to: &Point) -> Option<(f64, Point)> {
+        if let Some(at) = self.skipped_at {
+            return Some((1.0, at));
+        }
         if self.skip {
             return Some((0.0, *from));
         }

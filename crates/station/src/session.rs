@@ -8,6 +8,7 @@ mod locks;
 mod rehearsal;
 mod states;
 mod telling;
+mod trips;
 mod typed;
 
 use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
@@ -108,6 +109,10 @@ pub struct Session<L> {
     closing: awaiting::Closing,
     /// What comes next waits for codes.
     awaited: bool,
+    /// The overtravel switch onto which an axis has run.
+    tripped: Option<machine::LimitSwitch>,
+    /// The power failed while this block was being executed.
+    interrupted: Option<Place>,
     stopped: bool,
     /// By FEED HOLD.
     feed_held: bool,
@@ -181,6 +186,8 @@ impl<L: Library> Session<L> {
             codes_out: false,
             closing: None,
             awaited: false,
+            tripped: None,
+            interrupted: None,
             stopped: false,
             feed_held: false,
             powered: true,
@@ -340,20 +347,6 @@ impl<L: Library> Session<L> {
         self.switches.set(name, number, on)?;
         self.switched = true;
         self.pass_switches();
-        Ok(())
-    }
-
-    /// Holds an input by hand.
-    ///
-    /// # Errors
-    /// Why not, in words.
-    pub fn set_input(&mut self, name: &str, on: bool) -> Result<(), String> {
-        let interrupt = self.inputs.interrupt;
-        self.inputs.set(name, on).map_err(|error| error.0)?;
-        if self.inputs.interrupt && !interrupt {
-            self.interrupt();
-        }
-        self.machine.set_skip(self.inputs.skip);
         Ok(())
     }
 

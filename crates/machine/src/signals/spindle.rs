@@ -216,11 +216,16 @@ impl Spindle {
         fails.then_some((Seconds(self.since + self.facts.time_out), self.target_rpm.abs()))
     }
 
+    /// True if it does not get to its speed.
+    pub fn is_weak(&self) -> bool {
+        self.weak
+    }
+
     /// It does not get to its speed, or does again.
     pub fn set_weak(&mut self, weak: bool, now: f64) {
         self.from_rpm = self.rpm(now);
         (self.since, self.weak) = (now, weak);
-        self.told &= !weak;
+        self.told &= !weak || self.target_rpm == 0.0;
     }
 
     /// The drive is off: it runs down.

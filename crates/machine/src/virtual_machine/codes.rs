@@ -1,9 +1,9 @@
 //! Codes and the lines they go out on, as time passes.
 
-use base::{AxisSet, Place, Point, Seconds};
+use base::{Place, Point, Seconds};
 use meaning::{CodeLine, CodeOut};
 
-use super::{Machine, VirtualMachine};
+use super::VirtualMachine;
 use crate::event::{Event, EventKind};
 use crate::interface::DecodedLine;
 use crate::signals::{Fin, LimitSwitch, Moment, Signal, Spindle, Trouble, Waiting, bits};
@@ -44,8 +44,12 @@ impl VirtualMachine {
     }
 
     /// The spindle does not get to its speed, or does again.
-    pub fn set_spindle_weak(&mut self, weak: bool, now: Seconds) {
+    pub fn set_spindle_weak(&mut self, weak: bool, now: Seconds, told: &mut Vec<Event>) {
+        let falls = weak && self.spindle.is_turning() && self.spindle.next().is_none() && !self.spindle.is_weak();
         self.spindle.set_weak(weak, now.0);
+        if falls {
+            self.edge(Signal::SpeedReached, false, now.0, &Place::default(), told);
+        }
     }
 
     /// The spindle's drive is off.
@@ -63,17 +67,37 @@ impl VirtualMachine {
         &self.switches
     }
 
-    /// The overtravel switch onto which axes run that stand here and move so.
-    pub fn overtravelled(&self, position: &Point, velocity: &Point) -> Option<LimitSwitch> {
-        let onto = |switch: &&LimitSwitch| {
-            let speed = velocity[switch.axis];
-            switch.is_on(position) && if switch.positive { speed > 0.0 } else { speed < 0.0 }
-        };
-        self.switches.iter().find(onto).copied()
+    /// The axes are here and move so: the edges of overtravel switches are told; the one onto which an axis runs.
+    pub fn look_at_switches(
+        &mut self,
+        position: &Point,
+        velocity: &Point,
+        now: Seconds,
+        told: &mut Vec<Event>,
+    ) -> Option<LimitSwitch> {
+        let mut onto = None;
+        for index in 0..self.switches.len() {
+            let Some(switch) = self.switches.get_mut(index) else { break };
+            let (on, speed) = (switch.is_on(position), velocity[switch.axis]);
+            let edge = std::mem::replace(&mut switch.on, on) != on;
+            let switch = *switch;
+            if edge {
+                self.edge(switch.signal(), on, now.0, &Place::default(), told);
+            }
+            if on && if switch.positive { speed > 0.0 } else { speed < 0.0 } {
+                onto = onto.or(Some(switch));
+            }
+        }
+        onto
     }
 
-    /// Overtravel switches of these axes that were there for one time only are gone.
-    pub fn keep_switches(&mut self, count: usize) {
+    /// Overtravel switches behind the first so many are gone.
+    pub fn keep_switches(&mut self, count: usize, now: Seconds, told: &mut Vec<Event>) {
+        for index in count..self.switches.len() {
+            if let Some(switch) = self.switches.get(index).filter(|switch| switch.on) {
+                self.edge(switch.signal(), false, now.0, &Place::default(), told);
+            }
+        }
         self.switches.truncate(count);
     }
 
@@ -354,11 +378,5 @@ impl VirtualMachine {
             self.time = at;
             self.tell(told, place, EventKind::Waited(waited));
         }
-    }
-
-    /// Axes that stand on an overtravel switch.
-    pub fn on_switches(&self) -> AxisSet {
-        let on = self.switches.iter().filter(|switch| switch.is_on(self.position()));
-        on.fold(AxisSet::NONE, |axes, switch| axes.or(switch.axes()))
     }
 }

@@ -63,6 +63,8 @@ enum Kind {
     Offset,
     Parameter,
     Variable,
+    /// Faults made on purpose.
+    Fault,
     Show,
     Run,
     NotBuilt,
@@ -87,6 +89,7 @@ fn kind(action: &Action) -> Kind {
         Action::Offset(..) | Action::Work(..) => Kind::Offset,
         Action::Parameter(_) => Kind::Parameter,
         Action::Variable(..) => Kind::Variable,
+        Action::Fault(_) => Kind::Fault,
         Action::Show(_) => Kind::Show,
         Action::Run(_) => Kind::Run,
         Action::NotBuilt(_) => Kind::NotBuilt,
@@ -97,7 +100,8 @@ fn kind(action: &Action) -> Kind {
 /// end of one.
 pub(super) fn changes_what_follows(action: &Action) -> bool {
     match kind(action) {
-        Kind::Turn => !matches!(action, Action::Override(..)),
+        // Signals act in the moment in which they come.
+        Kind::Turn => !matches!(action, Action::Override(..) | Action::Input(..)),
         Kind::Offset | Kind::Parameter | Kind::Variable | Kind::Load | Kind::Select | Kind::Type => true,
         _ => false,
     }
@@ -144,6 +148,7 @@ const TABLE: &[(Kind, [Answer; 6])] = &[
     (Kind::Offset,        [OFF,      GO,        GO,          GO,          GO,        GO]),
     (Kind::Parameter,     [OFF,      GO,        GO,          GO,          RUNS,      STOPPED]),
     (Kind::Variable,      [OFF,      GO,        GO,          GO,          GO,        GO]),
+    (Kind::Fault,         [OFF,      GO,        GO,          GO,          GO,        GO]),
     (Kind::Show,          [OFF,      GO,        GO,          GO,          GO,        GO]),
     (Kind::Run,           [GO,       GO,        GO,          GO,          GO,        GO]),
     (Kind::NotBuilt,      [NOT_YET,  NOT_YET,   NOT_YET,     NOT_YET,     NOT_YET,   NOT_YET]),

@@ -3,12 +3,12 @@
 //! While the operator works the wait takes its time, and he can step in; otherwise it passes as a whole.
 
 use base::{Alarm, Condition, Place};
-use machine::{DecodedLine, Machine, Trouble, Wait, Waiting};
+use machine::{DecodedLine, Machine, Signal, Trouble, Wait, Waiting};
 use meaning::{Close, CodeLine};
 use path::Shape;
 
 use super::Session;
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Inputs};
 use crate::library::Library;
 
 /// A block that has closed but for its codes.
@@ -37,6 +37,49 @@ impl<L: Library> Session<L> {
     pub fn waiting(&self) -> Option<Waiting> {
         let waits = self.closing.is_some() && self.waits_for_codes() || self.awaited;
         if waits && self.alarm.is_none() { self.machine.waiting() } else { None }
+    }
+
+    /// Holds an input by hand.
+    ///
+    /// # Errors
+    /// Why not, in words.
+    pub fn set_input(&mut self, name: &str, on: bool) -> Result<(), String> {
+        let now = self.time();
+        if name == "FIN" {
+            self.machine.set_fin(on, now, &mut self.events);
+            return Ok(());
+        }
+        let before = self.inputs;
+        self.inputs.set(name, on).map_err(|error| error.0)?;
+        self.pass_inputs(&before);
+        if self.inputs.interrupt && !before.interrupt {
+            self.interrupt();
+        }
+        self.machine.set_skip(self.inputs.skip);
+        if self.inputs.skip && !before.skip {
+            self.skip_move_under_way();
+        }
+        Ok(())
+    }
+
+    /// Edges of the inputs that the script gives.
+    fn pass_inputs(&mut self, before: &Inputs) {
+        let (now, inputs) = (self.time(), self.inputs);
+        self.machine.pass_signals(now, &mut self.events);
+        let edges = [
+            (Signal::Eop, before.eop == Some(true), inputs.eop == Some(true)),
+            (Signal::Rwd, before.rwd == Some(true), inputs.rwd == Some(true)),
+            (Signal::Skip, before.skip, inputs.skip),
+            (Signal::Interrupt, before.interrupt, inputs.interrupt),
+        ];
+        for (signal, was, on) in edges {
+            if was != on {
+                self.machine.tell_input(signal, on, now, &mut self.events);
+            }
+        }
+        // An input held by hand is no longer driven by its wire.
+        self.configuration.inputs = inputs;
+        self.machine.wire(decoded_lines(&self.configuration));
     }
 
     /// A block that closes goes on doing so; false if it still waits.
@@ -77,7 +120,7 @@ impl<L: Library> Session<L> {
 
     fn asks_for_answers(&self, shape: &Shape) -> bool {
         match shape {
-            Shape::Code(code) => code.after_motion && !(self.in_force.aux_lock && !self.is_obeyed(*code)),
+            Shape::Code(code) => code.after_motion && (!self.in_force.aux_lock || self.is_obeyed(*code)),
             Shape::Await(_) => true,
             Shape::Rapid { .. } | Shape::Line { .. } | Shape::Arc { .. } | Shape::Dwell(_) => {
                 self.machine.holds_motion()
@@ -93,7 +136,8 @@ impl<L: Library> Session<L> {
             return true;
         }
         self.rest();
-        let limit = self.deadline.map_or(f64::INFINITY, |deadline| deadline.0.max(self.machine.time().0));
+        let limit = self.deadline.map_or(f64::INFINITY, |deadline| deadline.0).min(self.next_trip());
+        let limit = limit.max(self.machine.time().0);
         match self.machine.wait_for_codes(limit, place, &mut self.events) {
             Wait::Over => true,
             Wait::Still => false,

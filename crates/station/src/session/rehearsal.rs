@@ -260,6 +260,8 @@ impl<L: Library> Session<L> {
             begun: self.begun,
             closing: None,
             awaited: false,
+            tripped: None,
+            interrupted: None,
             codes_out: self.codes_out,
             stopped: false,
             feed_held: false,

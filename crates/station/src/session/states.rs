@@ -27,6 +27,8 @@ impl<L: Library> Session<L> {
         let alarm = Alarm::new(Condition::EmergencyStop, place, place.block);
         self.emergency = true;
         self.settle();
+        let now = self.time();
+        self.machine.stop_spindle(now);
         self.tell(place, EventKind::Alarm(alarm));
         self.change_states(Occasion::EmergencyStop, ResetCause::EmergencyStop);
         self.forget_typed();
@@ -65,6 +67,7 @@ impl<L: Library> Session<L> {
         self.rewound = true;
         self.look_for_label(Occasion::PowerOn);
         self.pass_overrides();
+        self.tell_of_power_failure();
         if self.emergency {
             let alarm = Alarm::new(Condition::EmergencyStop, Place::default(), Place::default().block);
             self.tell(alarm.place, EventKind::Alarm(alarm));
@@ -87,6 +90,9 @@ impl<L: Library> Session<L> {
     pub(super) fn interrupt(&mut self) {
         if !self.is_running() || self.stopped {
             return;
+        }
+        if self.is_moving() && self.interpreter().executing_state().interrupt.is_some() {
+            self.break_off();
         }
         let (position, place) = (self.counted_position(), self.place());
         let begun = !self.pulled || self.begun == Some(self.motion.upstream.current().block);
@@ -120,6 +126,9 @@ impl<L: Library> Session<L> {
         }
         self.look_for_label(occasion);
         self.alarm = None;
+        if occasion != Occasion::ProgramEnd {
+            self.mend();
+        }
         let groups = self.interpreter().read_state().groups;
         self.tell(place, EventKind::Reset { cause, groups });
     }
@@ -147,6 +156,12 @@ impl<L: Library> Session<L> {
     /// True while LABEL SKIP is on.
     pub fn label_skip(&self) -> bool {
         self.label_skip
+    }
+
+    /// As far as the control counts, the axes are where they are.
+    pub(super) fn settle_counters(&mut self) {
+        let position = self.counted_position();
+        self.motion.upstream.stand_at(&position);
     }
 
     /// The counters of all axes are set to where the axes are.

@@ -41,6 +41,9 @@ impl<L: Library> Session<L> {
             self.ended = true;
             return Some(Step::Failed(error));
         }
+        if self.look_for_trips() {
+            return None;
+        }
         if self.stopped {
             return Some(Step::Stopped);
         }
@@ -48,7 +51,7 @@ impl<L: Library> Session<L> {
             return Some(Step::Idle);
         }
         if self.closing.is_some() {
-            let still = !self.go_on_closing() && self.has_told_all();
+            let still = !self.go_on_closing() && self.has_told_all() && self.next_trip() > self.time().0;
             return still.then_some(Step::Idle);
         }
         if self.under_way.is_some() {
@@ -59,7 +62,8 @@ impl<L: Library> Session<L> {
             let held = self.pulled || self.live && self.takes_waiting_hold();
             if !held && self.waits_for_machine() {
                 self.pulled = true;
-                return self.has_told_all().then_some(Step::Idle);
+                let still = self.has_told_all() && self.next_trip() > self.time().0;
+                return still.then_some(Step::Idle);
             }
             if !held {
                 self.execute();
