@@ -23,14 +23,15 @@ const STEPS: u64 = 1000;
 
 /// What the parts of a run cost, microseconds where they were measured (`python3 benches/progress.py weights`); what
 /// they cost beside each other is all that counts.
-const BLOCK: f64 = 0.4;
-const CUT: f64 = 1.45;
+const BLOCK: f64 = 0.25;
+const CUT: f64 = 1.25;
 /// Behind something that is no cut, nothing is planned together with it.
-const LONE_CUT: f64 = 0.7;
-const ARC_CELL: f64 = 0.29;
-const OTHER: f64 = 0.2;
+const LONE_CUT: f64 = 0.6;
+const ARC_CELL: f64 = 0.83;
+const RAPID: f64 = 0.15;
+const OTHER: f64 = 0.06;
 /// Radians of an arc that are planned together, and most of them in one.
-const CELL: f64 = 0.08;
+const CELL: f64 = 0.27;
 const MOST_CELLS: f64 = 512.0;
 
 /// The work of a run, added up event by event.
@@ -48,6 +49,7 @@ impl Work {
             EventKind::BlockDone => BLOCK,
             EventKind::Feed { .. } => cut,
             EventKind::Arc { arc, .. } => cut + ARC_CELL * (arc.sweep.abs() / CELL).min(MOST_CELLS),
+            EventKind::Rapid { .. } => RAPID,
             _ => OTHER,
         };
         match &event.kind {

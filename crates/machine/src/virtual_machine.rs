@@ -184,9 +184,10 @@ impl VirtualMachine {
         self.drives.as_ref()
     }
 
-    /// True if a move that would leave the travel is refused as a whole, and not stopped at the border.
-    pub fn refuses_whole(&self) -> bool {
-        self.stroke_check != StrokeCheck::AtBorder
+    /// True if a move is not made to its end: it would leave the travel. Refused or stopped at the border, the axes stand
+    /// before it.
+    pub fn cannot_end(&self, timed: &Timed<'_>) -> bool {
+        self.refusal(timed).is_some()
     }
 
     fn tell(&self, told: &mut Vec<Event>, place: &Place, kind: EventKind) {

@@ -94,11 +94,10 @@ impl<L: Library> Session<L> {
     pub(super) fn begin_move(&mut self) -> bool {
         let shaped = self.motion.upstream.current();
         let place = shaped.place;
-        let ends_by_itself = (!shaped.until_signal || self.machine.awaits_skip())
-            && self.real_shape().is_none()
-            && self.machine.refuses_whole();
+        let is_led = !shaped.until_signal || self.machine.awaits_skip();
+        let ends_by_itself = is_led && self.real_shape().is_none();
         let is_known = !self.motion.is_joined() || self.motion.knows_next();
-        if !ends_by_itself || !is_known || self.machine.check(&self.motion.current()).is_err() {
+        if !ends_by_itself || !is_known || self.machine.cannot_end(&self.motion.current()) {
             self.motion.plan();
             return false;
         }

@@ -127,7 +127,9 @@ impl<L: Library> Session<L> {
     /// Plans the move that is to be executed now.
     pub(super) fn plan(&mut self) {
         if let Some(met) = &mut self.met {
-            met.push_back(Ahead::Move(self.motion.upstream.current().shape));
+            let current = self.motion.current();
+            let ahead = if self.machine.cannot_end(&current) { Ahead::Rest } else { Ahead::Move(current.shaped.shape) };
+            met.push_back(ahead);
             return;
         }
         if !self.motion.plans() {

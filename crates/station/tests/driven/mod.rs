@@ -142,10 +142,6 @@ pub fn drive(session: &mut Session<Texts>, most: u64, hand: &mut Hand, figures: 
             look.paths.leave();
             continue;
         }
-        if session.alarm().is_some() {
-            // A move that is refused on its way ends where it is refused: nothing has been planned to there.
-            look.last = None;
-        }
         let stands = Setpoint { position: session.position(), velocity: [0.0; AXES] };
         let setpoint = match session.setpoint() {
             // One move has just ended and the next one not begun.
