@@ -11,7 +11,8 @@ use motion::{AxisLimits, Limits};
 use crate::interface::{HandshakeTimes, default_handshake_times, handshake_times};
 use crate::kinematics::kinematics;
 use crate::path_table::{PathTable, not_negative, path, positive};
-use crate::signals::{LimitSwitch, SpindleFacts, spindle};
+use crate::reference_return::ReferenceReturn;
+use crate::signals::{LimitSwitch, MagazineFacts, SpindleFacts, magazine, spindle};
 use crate::travel::Travel;
 
 static MACHINES: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../machines");
@@ -81,6 +82,8 @@ pub struct MachineAxis {
     pub approach: f64,
     /// Where the overtravel switches are, machine coordinates; `None` where the travel is all there is.
     pub limit_switches: Option<[f64; 2]>,
+    /// How it returns to its reference point by hand.
+    pub reference_return: ReferenceReturn,
 }
 
 /// A machine.
@@ -104,6 +107,8 @@ pub struct MachineFile {
     pub handshake: HandshakeTimes,
     /// The spindle.
     pub spindle: SpindleFacts,
+    /// The tool magazine.
+    pub magazine: MagazineFacts,
     /// What is wired to the control's inputs.
     pub wiring: Wiring,
     /// How the axes that turn move the tip of the tool; `None` if the builder does not say.
@@ -185,7 +190,7 @@ fn machine(root: &mut Table) -> MachineFile {
         eop: t.strings("EOP").unwrap_or_else(default_eop),
         rwd: t.strings("RWD").unwrap_or_else(default_rwd),
     });
-    root.table("magazine", |t| t.integer("pockets"));
+    let magazine = root.table("magazine", magazine).unwrap_or_default();
     let kinematics = root.table("kinematics", |t| kinematics(t, &axes)).flatten();
     let Functions { codes, times, handshake, b_axis } = match functions {
         Some(functions) => functions,
@@ -201,6 +206,7 @@ fn machine(root: &mut Table) -> MachineFile {
         times,
         handshake,
         spindle,
+        magazine,
         kinematics,
         wiring: wiring.unwrap_or_else(|| Wiring { eop: default_eop(), rwd: default_rwd() }),
     }
@@ -261,6 +267,7 @@ fn axis(table: &mut Table, letter: u8) -> MachineAxis {
     let max_feed = positive(table, "max_feed", 6000.0);
     let acceleration = positive(table, "acceleration", 500.0);
     let jerk = not_negative(table, "jerk", 0.0);
+    let reference_return = table.table("return", |t| ReferenceReturn::read(t, rapid));
     MachineAxis {
         letter,
         rotary: kind.unwrap_or(false),
@@ -272,6 +279,7 @@ fn axis(table: &mut Table, letter: u8) -> MachineAxis {
         reference_points,
         approach: table.number("approach").unwrap_or(0.0),
         limit_switches: limit_switches(table),
+        reference_return: reference_return.unwrap_or_else(|| ReferenceReturn::default_for(rapid)),
     }
 }
 

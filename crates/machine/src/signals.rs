@@ -4,11 +4,14 @@
 //! wired and how long each step takes.
 
 mod handshake;
+mod magazine;
 mod spindle;
 
 use meaning::CodeLine;
 
 pub use handshake::{Fin, Handshake, Moment, Trouble, Waiting};
+pub(crate) use magazine::magazine;
+pub use magazine::{Magazine, MagazineFacts};
 pub(crate) use spindle::spindle;
 pub use spindle::{Spindle, SpindleFacts};
 

@@ -18,7 +18,7 @@ use crate::drives::Drives;
 use crate::event::{Event, EventKind};
 use crate::file::{CodeTimes, MachineFile};
 use crate::interface::DecodedLine;
-use crate::signals::{Handshake, LimitSwitch, Spindle};
+use crate::signals::{Handshake, LimitSwitch, Magazine, Spindle};
 use crate::travel::{Exit, Met, Travel, along, until};
 
 /// What executes timed shapes: the virtual machine, or one with real axes.
@@ -82,6 +82,7 @@ pub struct VirtualMachine {
     /// Codes that are out.
     handshake: Handshake,
     spindle: Spindle,
+    magazine: Magazine,
     /// M codes with a line of their own, and what that drives.
     decoded: Vec<DecodedLine>,
     /// Overtravel switches.
@@ -115,6 +116,7 @@ impl VirtualMachine {
             times: file.times.clone(),
             handshake: Handshake::new(file.handshake),
             spindle: Spindle::new(file.spindle.clone()),
+            magazine: Magazine::new(file.magazine.clone()),
             decoded: Vec::new(),
             switches: file.limit_switches(),
             tells_signals: false,

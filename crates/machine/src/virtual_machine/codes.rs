@@ -6,7 +6,7 @@ use meaning::{CodeLine, CodeOut};
 use super::VirtualMachine;
 use crate::event::{Event, EventKind};
 use crate::interface::DecodedLine;
-use crate::signals::{Fin, LimitSwitch, Moment, Signal, Spindle, Trouble, Waiting, bits};
+use crate::signals::{Fin, LimitSwitch, Magazine, Moment, Signal, Spindle, Trouble, Waiting, bits};
 
 /// How a wait stands.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -41,6 +41,11 @@ impl VirtualMachine {
     /// The spindle.
     pub fn spindle(&self) -> &Spindle {
         &self.spindle
+    }
+
+    /// The tool magazine.
+    pub fn magazine(&self) -> &Magazine {
+        &self.magazine
     }
 
     /// The spindle does not get to its speed, or does again.
@@ -228,6 +233,11 @@ impl VirtualMachine {
                     self.edge(Signal::Strobe(code.line, nth), true, at, &place, told);
                     self.decoded_lines(code, true, at, &place, told);
                     self.take_spindle(code, index, at, told);
+                    let longer = self.magazine.take(code);
+                    if longer.0 > 0.0 {
+                        let takes = self.times.of(code.line, code.code) + longer;
+                        self.handshake.lengthen(index, takes.0);
+                    }
                 }
             }
             Moment::Done(index) => {

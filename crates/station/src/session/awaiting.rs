@@ -33,6 +33,17 @@ impl<L: Library> Session<L> {
         self.machine.tell_signals(tells);
     }
 
+    /// The spindle's speed now, rev/min; backward is negative.
+    pub fn spindle_rpm(&self) -> f64 {
+        self.machine.spindle().rpm(self.time().0)
+    }
+
+    /// The tool in the spindle and the pocket at the place of change, as the machine has them; no tool is 0.
+    pub fn tools(&self) -> [u32; 2] {
+        let magazine = self.machine.magazine();
+        [magazine.tool(), magazine.pocket()]
+    }
+
     /// What the control waits for at the machine, if it does.
     pub fn waiting(&self) -> Option<Waiting> {
         let waits = self.closing.is_some() && self.waits_for_codes() || self.awaited;
