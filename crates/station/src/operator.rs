@@ -135,7 +135,7 @@ impl<L: Shelf> Operator<L> {
                 self.session.forget_rehearsal();
             } else {
                 self.session.stand_soon();
-                if !table::acts_at_block_ends(action) {
+                if !table::acts_at_block_ends(action) && !table::acts_at_once(action) {
                     self.waiting.push_back(action.clone());
                     return Ok(Ok(()));
                 }

@@ -148,7 +148,7 @@ impl<L: Library> Session<L> {
         let mut virtual_machine = VirtualMachine::new(&machine, start, fitting.policies.stroke_check);
         virtual_machine.set_contact(contact);
         virtual_machine.set_skip(inputs.skip);
-        virtual_machine.wire(awaiting::decoded_lines(&configuration));
+        virtual_machine.wire(awaiting::decoded_lines(&configuration, &inputs));
         let motion = Motion::new(Path::new(interpreter, start), machine.limits());
         let mut session = Session {
             motion,

@@ -100,11 +100,22 @@ fn kind(action: &Action) -> Kind {
 /// end of one.
 pub(super) fn changes_what_follows(action: &Action) -> bool {
     match kind(action) {
-        // Signals act in the moment in which they come.
-        Kind::Turn => !matches!(action, Action::Override(..) | Action::Input(..)),
+        Kind::Turn => match action {
+            Action::Override(..) => false,
+            Action::Input(name, _) => !ANSWERS.contains(&name.as_str()),
+            _ => true,
+        },
         Kind::Offset | Kind::Parameter | Kind::Variable | Kind::Load | Kind::Select | Kind::Type => true,
         _ => false,
     }
+}
+
+/// Inputs by which the machine answers codes: they change no move.
+const ANSWERS: [&str; 3] = ["FIN", "EOP", "RWD"];
+
+/// Inputs that act in the moment in which they turn on, also in the middle of a move.
+pub(super) fn acts_at_once(action: &Action) -> bool {
+    matches!(action, Action::Input(name, _) if name == "skip" || name == "interrupt")
 }
 
 /// True for SINGLE BLOCK, which is looked at as a block ends and need not wait for that.

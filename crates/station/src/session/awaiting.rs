@@ -15,8 +15,8 @@ use crate::library::Library;
 pub(super) type Closing = Option<(Close, Place)>;
 
 /// The M codes with a line of their own, and what the builder drives by them.
-pub(super) fn decoded_lines(configuration: &Configuration) -> Vec<DecodedLine> {
-    let (wiring, inputs) = (&configuration.machine.wiring, &configuration.inputs);
+pub(super) fn decoded_lines(configuration: &Configuration, inputs: &Inputs) -> Vec<DecodedLine> {
+    let wiring = &configuration.machine.wiring;
     let rows = configuration.control.m_codes.iter();
     let wired = |line: &String, wired: &[String], by_hand: Option<bool>| by_hand.is_none() && wired.contains(line);
     rows.filter_map(|row| {
@@ -89,8 +89,7 @@ impl<L: Library> Session<L> {
             }
         }
         // An input held by hand is no longer driven by its wire.
-        self.configuration.inputs = inputs;
-        self.machine.wire(decoded_lines(&self.configuration));
+        self.machine.wire(decoded_lines(&self.configuration, &inputs));
     }
 
     /// A block that closes goes on doing so; false if it still waits.
