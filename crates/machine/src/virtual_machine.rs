@@ -91,6 +91,8 @@ pub struct VirtualMachine {
     tells_signals: bool,
     /// The motion of a block is done whose codes are out.
     den: bool,
+    /// Until then everything on the lines has been told, s.
+    signals_until: f64,
     /// Nothing moves while codes are out.
     holds_motion: bool,
     /// The drives, if their setpoints are wanted.
@@ -121,6 +123,7 @@ impl VirtualMachine {
             switches: file.limit_switches(),
             tells_signals: false,
             den: false,
+            signals_until: 0.0,
             holds_motion: false,
             drives: None,
             unknown: AxisSet::NONE,

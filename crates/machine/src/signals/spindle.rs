@@ -205,6 +205,11 @@ impl Spindle {
         (!self.told).then(|| self.arrives()).filter(|at| at.is_finite())
     }
 
+    /// True once it has been told that it has arrived.
+    pub fn has_arrived(&self) -> bool {
+        self.told
+    }
+
     /// It has been told that it has arrived.
     pub fn pass(&mut self) {
         self.told = true;

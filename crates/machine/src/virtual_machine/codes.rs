@@ -50,7 +50,7 @@ impl VirtualMachine {
 
     /// The spindle does not get to its speed, or does again.
     pub fn set_spindle_weak(&mut self, weak: bool, now: Seconds, told: &mut Vec<Event>) {
-        let falls = weak && self.spindle.is_turning() && self.spindle.next().is_none() && !self.spindle.is_weak();
+        let falls = weak && self.spindle.is_turning() && self.spindle.has_arrived();
         self.spindle.set_weak(weak, now.0);
         if falls {
             self.edge(Signal::SpeedReached, false, now.0, &Place::default(), told);
@@ -58,7 +58,13 @@ impl VirtualMachine {
     }
 
     /// The spindle's drive is off.
-    pub fn stop_spindle(&mut self, now: Seconds) {
+    pub fn stop_spindle(&mut self, now: Seconds, told: &mut Vec<Event>) {
+        if !self.spindle.is_turning() {
+            return;
+        }
+        if self.spindle.has_arrived() {
+            self.edge(Signal::SpeedReached, false, now.0, &Place::default(), told);
+        }
         self.spindle.stop(now.0);
     }
 
@@ -86,7 +92,9 @@ impl VirtualMachine {
             let (on, speed) = (switch.is_on(position), velocity[switch.axis]);
             let edge = std::mem::replace(&mut switch.on, on) != on;
             let switch = *switch;
-            if edge {
+            // Two switches may share a line.
+            let on_line = self.switches.iter().filter(|other| other.on && other.signal() == switch.signal()).count();
+            if edge && on_line == usize::from(on) {
                 self.edge(switch.signal(), on, now.0, &Place::default(), told);
             }
             if on && if switch.positive { speed > 0.0 } else { speed < 0.0 } {
@@ -98,12 +106,12 @@ impl VirtualMachine {
 
     /// Overtravel switches behind the first so many are gone.
     pub fn keep_switches(&mut self, count: usize, now: Seconds, told: &mut Vec<Event>) {
-        for index in count..self.switches.len() {
-            if let Some(switch) = self.switches.get(index).filter(|switch| switch.on) {
-                self.edge(switch.signal(), false, now.0, &Place::default(), told);
+        while self.switches.len() > count {
+            let Some(gone) = self.switches.pop() else { break };
+            if gone.on && !self.switches.iter().any(|other| other.on && other.signal() == gone.signal()) {
+                self.edge(gone.signal(), false, now.0, &Place::default(), told);
             }
         }
-        self.switches.truncate(count);
     }
 
     /// An edge of an input that the operator's script gives.
@@ -181,6 +189,7 @@ impl VirtualMachine {
         while let Some((at, moment)) = self.next_moment().filter(|(at, _)| *at <= until.0) {
             self.pass_moment(at, moment, told);
         }
+        self.signals_until = self.signals_until.max(until.0);
     }
 
     /// Time passes, and what happens on the lines is told.
@@ -209,6 +218,9 @@ impl VirtualMachine {
     }
 
     fn pass_moment(&mut self, at: f64, moment: Option<Moment>, told: &mut Vec<Event>) {
+        // What has become possible since, and was due before, happens now.
+        let at = at.max(self.signals_until).max(self.time.0);
+        self.signals_until = at;
         match moment {
             Some(moment) => self.happen(at, moment, told),
             None => {
@@ -225,8 +237,6 @@ impl VirtualMachine {
 
     /// Something happens on the lines of codes.
     fn happen(&mut self, at: f64, moment: Moment, told: &mut Vec<Event>) {
-        // FIN that is there too early was there when the code went out.
-        let at = if at.is_finite() { at } else { self.time.0 };
         match moment {
             Moment::Strobe(index) => {
                 if let Some((code, nth, place)) = self.handshake.out(index) {
@@ -256,7 +266,7 @@ impl VirtualMachine {
 
     /// The spindle obeys a code; the code is done when the spindle has, if the builder wants that.
     fn take_spindle(&mut self, code: CodeOut, index: usize, at: f64, told: &mut Vec<Event>) {
-        let (turned, arrived) = (self.spindle.is_turning(), self.spindle.next().is_none());
+        let (turned, arrived) = (self.spindle.is_turning(), self.spindle.has_arrived());
         let oriented = self.spindle.orients();
         if self.spindle.take(code, at) {
             let was = match (turned, oriented) {

@@ -119,7 +119,12 @@ impl<L: Library> Session<L> {
     }
 
     /// Something has been touched: what follows is no longer what was rehearsed.
+    ///
+    /// A move that FEED HOLD keeps in its middle is still to be made to its end.
     pub fn forget_rehearsal(&mut self) {
+        if self.under_way.is_some() {
+            return self.stand_soon();
+        }
         self.rehearsal = None;
         self.motion.forget_ahead();
     }

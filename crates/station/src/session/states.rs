@@ -28,7 +28,7 @@ impl<L: Library> Session<L> {
         self.emergency = true;
         self.settle();
         let now = self.time();
-        self.machine.stop_spindle(now);
+        self.machine.stop_spindle(now, &mut self.events);
         self.tell(place, EventKind::Alarm(alarm));
         self.change_states(Occasion::EmergencyStop, ResetCause::EmergencyStop);
         self.forget_typed();
@@ -48,6 +48,8 @@ impl<L: Library> Session<L> {
     /// The power goes off: what is under way is lost, what the memory keeps is kept.
     pub fn power_off(&mut self) {
         self.break_off();
+        let now = self.time();
+        self.machine.stop_spindle(now, &mut self.events);
         self.interpreter_mut().store_codes();
         self.drop_work();
         self.come_back();
@@ -91,7 +93,8 @@ impl<L: Library> Session<L> {
         if !self.is_running() || self.stopped {
             return;
         }
-        if self.is_moving() && self.interpreter().executing_state().interrupt.is_some() {
+        let under_way = self.under_way.is_some() || self.is_moving();
+        if under_way && self.interpreter().executing_state().interrupt.is_some() {
             self.break_off();
         }
         let (position, place) = (self.counted_position(), self.place());

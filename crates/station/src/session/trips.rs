@@ -65,7 +65,7 @@ impl<L: Library> Session<L> {
         let (place, now) = (self.place_at_work(), self.time());
         let reached = self.machine.spindle().rpm(now.0).abs();
         self.trip(Alarm::new(Condition::SpindleTooSlow, place, place.block).with([rpm, reached, 0.0]));
-        self.machine.stop_spindle(now);
+        self.machine.stop_spindle(now, &mut self.events);
         true
     }
 
