@@ -5,7 +5,7 @@
 
 mod watch;
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use machine::{Event, EventKind};
 use station::{Action, Operator, Said, Session, Setup, read_action};
@@ -100,7 +100,7 @@ impl Station {
 
 /// Lines turn on and off by turns, time never goes back.
 fn check(done: &[&str], events: &[Event]) {
-    let mut lines: HashMap<String, bool> = HashMap::new();
+    let mut lines: BTreeMap<String, bool> = BTreeMap::new();
     let mut time = 0.0;
     for event in events {
         assert!(event.time.0 >= time - 1e-9, "{done:?}\n{event:?} comes after {time}");
