@@ -118,7 +118,7 @@ fn distance(way: &Way, place: &Point, enough: f64) -> f64 {
     let halves = [0..=PLACES / 2, PLACES / 2..=PLACES];
     let off = halves.map(|steps| {
         let nearest = steps.min_by(|one, other| apart(at(*one)).total_cmp(&apart(at(*other)))).unwrap_or(0);
-        narrowed(&apart, [at(nearest.saturating_sub(1)), at((nearest + 1).min(PLACES))], enough)
+        narrowed(apart, [at(nearest.saturating_sub(1)), at((nearest + 1).min(PLACES))], enough)
     });
     off[0].min(off[1])
 }
