@@ -303,6 +303,20 @@ conditions! {
     ProgramProtected = "program-protected",
 
     // The machine.
+    /// The machine has not answered a code. Values: its letter and number, the time waited.
+    FinMissing = "fin-missing",
+    /// The machine has answered a code before its strobe. Values: its letter and number.
+    FinEarly = "fin-early",
+    /// The machine does not take its answer back. Values: the code's letter and number, the time waited.
+    FinStuck = "fin-stuck",
+    /// An axis has run onto its overtravel switch. Values: where that is.
+    LimitSwitchReached = "limit-switch-reached",
+    /// The drive of an axis has failed.
+    ServoFault = "servo-fault",
+    /// The spindle has not reached its speed in time. Values: the speed asked for, the one it has.
+    SpindleTooSlow = "spindle-too-slow",
+    /// The power has failed while a program ran. Values: its line.
+    PowerFailed = "power-failed",
     /// The move leaves the axis' travel. Values: where it would go, lower limit, upper limit.
     TravelExceeded = "travel-exceeded",
     /// The move enters the forbidden box of the second stored stroke. Values: where, along X, Y, Z.

@@ -123,6 +123,10 @@ fn fill(text: &str, alarm: &Alarm, word: &str, axis: Option<(char, bool)>) -> St
                 let row = value(digit).unwrap_or(0.0) as u8;
                 out.push_str(&format!("{row:02X} (channels {})", tape::holes(row)));
             }
+            Some((digit, "code")) => {
+                let letter = char::from(value(digit).unwrap_or(0.0) as u8);
+                out.push_str(&format!("{letter}{:02}", alarm.values[1]));
+            }
             Some((digit, "characters")) => out.push_str(&tape::Guesses::text(value(digit).unwrap_or(0.0))),
             _ => match name {
                 "word" => out.push_str(word),

@@ -6,6 +6,8 @@ use meaning::{CodeLine, CodeOut, Dwell, EndKind, SetValue, StopKind};
 use motion::Pace;
 use path::Arc;
 
+use crate::signals::Signal;
+
 /// What makes automatic operation stop so that it can go on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum StopCause {
@@ -91,6 +93,8 @@ pub enum EventKind {
     Code(CodeOut),
     /// The machine has finished a code.
     Finished(CodeLine),
+    /// A line between control and machine turned on or off.
+    Signal(Signal, bool),
     /// Time passed in which nothing moved, waiting for the machine.
     Waited(Seconds),
     /// The program wrote a value.

@@ -8,8 +8,11 @@ use include_dir::{Dir, include_dir};
 use meaning::{AxisFacts, CodeLine, CodeRules, Kinematics, MachineFacts};
 use motion::{AxisLimits, Limits};
 
+use crate::interface::{HandshakeTimes, default_handshake_times, handshake_times};
 use crate::kinematics::kinematics;
 use crate::path_table::{PathTable, not_negative, path, positive};
+use crate::reference_return::ReferenceReturn;
+use crate::signals::{LimitSwitch, MagazineFacts, SpindleFacts, magazine, spindle};
 use crate::travel::Travel;
 
 static MACHINES: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../machines");
@@ -34,6 +37,11 @@ pub struct CodeTimes {
 }
 
 impl CodeTimes {
+    /// That of the slowest code, s.
+    fn longest(&self) -> f64 {
+        self.single.iter().fold(self.other.0, |longest, (_, _, time)| longest.max(time.0))
+    }
+
     /// The time from a code to its answer.
     pub fn of(&self, line: CodeLine, code: u32) -> Seconds {
         let fits = |entry: &&(CodeLine, Option<u32>, Seconds)| entry.0 == line && entry.1.is_none_or(|own| own == code);
@@ -72,6 +80,10 @@ pub struct MachineAxis {
     pub reference_points: [f64; 4],
     /// Signed distance of positioning from one side.
     pub approach: f64,
+    /// Where the overtravel switches are, machine coordinates; `None` where the travel is all there is.
+    pub limit_switches: Option<[f64; 2]>,
+    /// How it returns to its reference point by hand.
+    pub reference_return: ReferenceReturn,
 }
 
 /// A machine.
@@ -91,6 +103,12 @@ pub struct MachineFile {
     pub codes: CodeRules,
     /// Times until codes are answered.
     pub times: CodeTimes,
+    /// How codes are answered.
+    pub handshake: HandshakeTimes,
+    /// The spindle.
+    pub spindle: SpindleFacts,
+    /// The tool magazine.
+    pub magazine: MagazineFacts,
     /// What is wired to the control's inputs.
     pub wiring: Wiring,
     /// How the axes that turn move the tip of the tool; `None` if the builder does not say.
@@ -133,6 +151,15 @@ impl MachineFile {
         travel
     }
 
+    /// The overtravel switches.
+    pub fn limit_switches(&self) -> Vec<LimitSwitch> {
+        let of = |(axis, row): (usize, &MachineAxis)| {
+            let [low, high] = row.limit_switches?;
+            Some([(false, low), (true, high)].map(|(positive, at)| LimitSwitch { axis, positive, at, on: false }))
+        };
+        self.axes.iter().enumerate().filter_map(of).flatten().collect()
+    }
+
     /// The rapid rates, mm/min, as a point.
     pub fn rapid_rates(&self) -> Point {
         let mut rates = [0.0; AXES];
@@ -157,15 +184,15 @@ fn machine(root: &mut Table) -> MachineFile {
     root.require("axes");
     let axes = root.table("axes", axes).unwrap_or_default();
     let path = root.table("path", path);
-    root.table("spindle", spindle);
+    let spindle = root.table("spindle", spindle).unwrap_or_default();
     let functions = root.table("functions", |t| functions(t, &axes));
     let wiring = root.table("wiring", |t| Wiring {
         eop: t.strings("EOP").unwrap_or_else(default_eop),
         rwd: t.strings("RWD").unwrap_or_else(default_rwd),
     });
-    root.table("magazine", |t| t.integer("pockets"));
+    let magazine = root.table("magazine", magazine).unwrap_or_default();
     let kinematics = root.table("kinematics", |t| kinematics(t, &axes)).flatten();
-    let Functions { codes, times, b_axis } = match functions {
+    let Functions { codes, times, handshake, b_axis } = match functions {
         Some(functions) => functions,
         None => default_functions(root, &axes),
     };
@@ -177,6 +204,9 @@ fn machine(root: &mut Table) -> MachineFile {
         b_axis,
         codes,
         times,
+        handshake,
+        spindle,
+        magazine,
         kinematics,
         wiring: wiring.unwrap_or_else(|| Wiring { eop: default_eop(), rwd: default_rwd() }),
     }
@@ -237,6 +267,7 @@ fn axis(table: &mut Table, letter: u8) -> MachineAxis {
     let max_feed = positive(table, "max_feed", 6000.0);
     let acceleration = positive(table, "acceleration", 500.0);
     let jerk = not_negative(table, "jerk", 0.0);
+    let reference_return = table.table("return", |t| ReferenceReturn::read(t, rapid));
     MachineAxis {
         letter,
         rotary: kind.unwrap_or(false),
@@ -247,24 +278,35 @@ fn axis(table: &mut Table, letter: u8) -> MachineAxis {
         jerk,
         reference_points,
         approach: table.number("approach").unwrap_or(0.0),
+        limit_switches: limit_switches(table),
+        reference_return: reference_return.unwrap_or_else(|| ReferenceReturn::default_for(rapid)),
     }
 }
 
-fn spindle(table: &mut Table) {
-    table.number("max_rpm");
-    table.number("acceleration_time");
-    table.choice("tapping", &[("float", ()), ("rigid", ())]);
+/// Overtravel switches; without the key there are none before the ends of the travel.
+fn limit_switches(table: &mut Table) -> Option<[f64; 2]> {
+    let place = table.place_of("limit_switches").unwrap_or_default();
+    match table.numbers("limit_switches")?.as_slice() {
+        &[low, high] if low < high => Some([low, high]),
+        _ => {
+            table.error(place, "limit_switches is a list of two numbers, the lowest first");
+            None
+        }
+    }
 }
 
 struct Functions {
     codes: CodeRules,
     times: CodeTimes,
+    handshake: HandshakeTimes,
     b_axis: bool,
 }
 
 fn default_functions(root: &Table, axes: &[MachineAxis]) -> Functions {
     check_b(root, root.range(), axes, false);
-    Functions { codes: code_rules(), times: CodeTimes { single: default_times(), other: Seconds(0.05) }, b_axis: false }
+    let times = CodeTimes { single: default_times(), other: Seconds(0.05) };
+    let handshake = default_handshake_times(times.longest());
+    Functions { codes: code_rules(), times, handshake, b_axis: false }
 }
 
 fn code_rules() -> CodeRules {
@@ -311,7 +353,9 @@ fn functions(table: &mut Table, axes: &[MachineAxis]) -> Functions {
     if other < 0.0 {
         table.error(place.unwrap_or_default(), "fin_time must not be negative");
     }
-    Functions { codes, times: CodeTimes { single, other: Seconds(other.max(0.0)) }, b_axis }
+    let times = CodeTimes { single, other: Seconds(other.max(0.0)) };
+    let handshake = handshake_times(table, times.longest());
+    Functions { codes, times, handshake, b_axis }
 }
 
 fn times(table: &mut Table) -> Vec<(CodeLine, Option<u32>, Seconds)> {

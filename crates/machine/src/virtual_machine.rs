@@ -3,9 +3,13 @@
 //! Codes that start with a block run beside its motion; the block is done when motion and machine are. Codes after
 //! the motion go out when it has ended, one block's together, and are waited for before anything else moves.
 
+mod codes;
+
+pub use codes::Wait;
+
 use base::{Alarm, AxisSet, Condition, Place, Point, Seconds};
 use dialect::StrokeCheck;
-use meaning::{CodeLine, CodeOut, SetValue, StrokeArea};
+use meaning::{SetValue, StrokeArea};
 use motion::{Setpoint, Timed};
 use path::Shape;
 
@@ -13,6 +17,8 @@ use crate::area::{Offence, offence};
 use crate::drives::Drives;
 use crate::event::{Event, EventKind};
 use crate::file::{CodeTimes, MachineFile};
+use crate::interface::DecodedLine;
+use crate::signals::{Handshake, LimitSwitch, Magazine, Spindle};
 use crate::travel::{Exit, Met, Travel, along, until};
 
 /// What executes timed shapes: the virtual machine, or one with real axes.
@@ -68,23 +74,32 @@ pub struct VirtualMachine {
     skip: bool,
     contact: Vec<(usize, f64)>,
     was_skipped: bool,
+    /// The signal has come while the move was under way, here.
+    skipped_at: Option<Point>,
     rates: Option<Point>,
     stroke_check: StrokeCheck,
     times: CodeTimes,
-    /// Codes that are out: their line and when the machine answers.
-    pending: [Option<(CodeLine, Seconds)>; PENDING],
-    /// Some code is out.
-    awaits: bool,
-    /// Nothing moves before this time.
-    hold: Seconds,
+    /// Codes that are out.
+    handshake: Handshake,
+    spindle: Spindle,
+    magazine: Magazine,
+    /// M codes with a line of their own, and what that drives.
+    decoded: Vec<DecodedLine>,
+    /// Overtravel switches.
+    switches: Vec<LimitSwitch>,
+    /// Every edge of a line is told.
+    tells_signals: bool,
+    /// The motion of a block is done whose codes are out.
+    den: bool,
+    /// Until then everything on the lines has been told, s.
+    signals_until: f64,
+    /// Nothing moves while codes are out.
+    holds_motion: bool,
     /// The drives, if their setpoints are wanted.
     drives: Option<Drives>,
     /// Axes whose place is unknown: leaving their travel is not reported.
     unknown: AxisSet,
 }
-
-/// Codes that can be out at once: those of one block.
-const PENDING: usize = 16;
 
 impl VirtualMachine {
     /// A machine at its start position (mm, degrees).
@@ -97,12 +112,19 @@ impl VirtualMachine {
             skip: false,
             contact: Vec::new(),
             was_skipped: false,
+            skipped_at: None,
             rates: (!file.path.straight_rapid).then(|| file.rapid_rates()),
             stroke_check,
             times: file.times.clone(),
-            pending: [None; PENDING],
-            awaits: false,
-            hold: Seconds(0.0),
+            handshake: Handshake::new(file.handshake),
+            spindle: Spindle::new(file.spindle.clone()),
+            magazine: Magazine::new(file.magazine.clone()),
+            decoded: Vec::new(),
+            switches: file.limit_switches(),
+            tells_signals: false,
+            den: false,
+            signals_until: 0.0,
+            holds_motion: false,
             drives: None,
             unknown: AxisSet::NONE,
         }
@@ -118,6 +140,16 @@ impl VirtualMachine {
         self.skip = on;
     }
 
+    /// The skip signal comes in the middle of the move under way, at this place.
+    pub fn skip_at(&mut self, at: Option<Point>) {
+        self.skipped_at = at.map(|at| at.map(|coordinate| (coordinate * 1e6).round() / 1e6));
+    }
+
+    /// True if nothing is known yet of when the skip signal comes.
+    pub fn awaits_skip(&self) -> bool {
+        !self.skip && self.contact.is_empty()
+    }
+
     /// Where the skip signal comes: axes and machine coordinates, mm or degrees.
     pub fn set_contact(&mut self, contact: Vec<(usize, f64)>) {
         self.contact = contact;
@@ -127,6 +159,9 @@ impl VirtualMachine {
     ///
     /// An axis that begins on a face of the contact does not cross it: it may be moving away.
     fn until_signal(&self, from: &Point, to: &Point) -> Option<(f64, Point)> {
+        if let Some(at) = self.skipped_at {
+            return Some((1.0, at));
+        }
         if self.skip {
             return Some((0.0, *from));
         }
@@ -160,64 +195,8 @@ impl VirtualMachine {
         self.refusal(timed).is_some()
     }
 
-    /// Time passes in which nothing happens.
-    pub fn stand_until(&mut self, time: Seconds) {
-        self.time = Seconds(self.time.0.max(time.0));
-    }
-
-    /// Waits for what a move must wait for.
-    pub fn wait_to_move(&mut self, place: &Place, tell: &mut Vec<Event>) {
-        self.wait_until(self.hold, place, tell);
-    }
-
-    /// Drops what was asked of the machine.
-    pub fn drop_codes(&mut self) {
-        self.pending = [None; PENDING];
-        self.awaits = false;
-        self.hold = self.time;
-    }
-
     fn tell(&self, told: &mut Vec<Event>, place: &Place, kind: EventKind) {
         told.push(Event { time: self.time, place: *place, kind });
-    }
-
-    fn send(&mut self, code: CodeOut, place: &Place, told: &mut Vec<Event>) {
-        if code.after_motion {
-            self.await_codes(place, told);
-        }
-        self.tell(told, place, EventKind::Code(code));
-        let answer = self.time + self.times.of(code.line, code.code);
-        if let Some(slot) = self.pending.iter_mut().find(|slot| slot.is_none()) {
-            *slot = Some((code.line, answer));
-            self.awaits = true;
-        }
-        if code.after_motion {
-            self.hold = self.hold.max(answer);
-        }
-    }
-
-    /// Waits until every code that is out has been answered.
-    fn await_codes(&mut self, place: &Place, told: &mut Vec<Event>) {
-        while self.awaits {
-            let next = self.pending.iter_mut().filter(|slot| slot.is_some()).min_by(|a, b| {
-                let when = |slot: &Option<(CodeLine, Seconds)>| slot.map_or(f64::INFINITY, |(_, at)| at.0);
-                when(a).total_cmp(&when(b))
-            });
-            let Some((line, at)) = next.and_then(Option::take) else {
-                self.awaits = false;
-                return;
-            };
-            self.wait_until(at, place, told);
-            told.push(Event { time: at, place: *place, kind: EventKind::Finished(line) });
-        }
-    }
-
-    fn wait_until(&mut self, at: Seconds, place: &Place, told: &mut Vec<Event>) {
-        if at > self.time {
-            let waited = at - self.time;
-            self.time = at;
-            self.tell(told, place, EventKind::Waited(waited));
-        }
     }
 
     /// Why a move may not be made as a whole, and where on its way.
@@ -271,7 +250,7 @@ impl VirtualMachine {
         let place = &timed.shaped.place;
         let Timed { duration, length, feed, pace, .. } = *timed;
         let (duration, length) = (Seconds(duration.0 * part), length * part);
-        self.time += duration;
+        self.pass_until(self.time + duration, told);
         let (time, place) = (self.time, *place);
         match shape {
             Shape::Rapid { from, to, .. } => {
@@ -320,8 +299,8 @@ impl Machine for VirtualMachine {
         match &timed.shaped.shape {
             Shape::Code(code) => self.send(*code, place, told),
             Shape::Dwell(dwell) => {
-                self.wait_until(self.hold, place, told);
-                self.time += timed.duration;
+                self.wait_to_move(place, told);
+                self.pass_until(self.time + timed.duration, told);
                 self.tell(told, place, EventKind::Dwell(*dwell));
             }
             Shape::Set(value) => {
@@ -332,7 +311,7 @@ impl Machine for VirtualMachine {
             }
             Shape::Start(groups) => self.tell(told, place, EventKind::Start(*groups)),
             shape @ (Shape::Rapid { .. } | Shape::Line { .. } | Shape::Arc { .. }) => {
-                self.wait_until(self.hold, place, told);
+                self.wait_to_move(place, told);
                 let signal = match shape {
                     Shape::Line { from, to, feed } if timed.shaped.until_signal => {
                         let signal = self.until_signal(from, to);
@@ -366,7 +345,7 @@ impl Machine for VirtualMachine {
             }
             Shape::Await(_) => {
                 self.await_codes(place, told);
-                self.hold = self.time;
+                self.holds_motion = false;
             }
             Shape::Close(_) | Shape::Alarm(_) => {}
         }
@@ -377,7 +356,7 @@ impl Machine for VirtualMachine {
         if waits {
             self.await_codes(place, told);
         }
-        self.hold = self.time;
+        self.holds_motion = false;
         self.tell(told, place, EventKind::BlockDone);
     }
 

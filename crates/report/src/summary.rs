@@ -114,7 +114,7 @@ impl Summary {
                 self.see(&low);
                 self.see(&high);
             }
-            EventKind::Dwell(_) | EventKind::Waited(_) => {}
+            EventKind::Dwell(_) | EventKind::Waited(_) | EventKind::Signal(..) => {}
             EventKind::End { kind, .. } => return self.end = Some(*kind),
             EventKind::BlockDone => return self.blocks += u64::from(event.place.block.len > 0),
             EventKind::Code(code) if code.line == CodeLine::T => return self.ledgers.call(code.code),

@@ -2,7 +2,7 @@
 
 use base::{AxisSet, Diagnostic, Point, ProgramId};
 use dialect::{Control, GroupCodes};
-use machine::{Event, EventKind, ResetCause, StopCause};
+use machine::{Event, EventKind, ResetCause, Signal, StopCause};
 use meaning::{CodeLine, CodeOut, Dwell, EndKind, Plane, SetValue, StopKind};
 
 use crate::json::JsonLine;
@@ -56,7 +56,7 @@ impl<'c> Tracer<'c> {
     ) {
         let kind = match &event.kind {
             EventKind::BlockDone | EventKind::Waited(_) => return,
-            EventKind::Finished(_) if !self.with_io => return,
+            EventKind::Finished(_) | EventKind::Signal(..) if !self.with_io => return,
             // A held axis has not moved.
             EventKind::Rapid { from, to, .. } | EventKind::Feed { from, to, .. } if from == to => return,
             kind => kind,
@@ -65,7 +65,7 @@ impl<'c> Tracer<'c> {
         line.text("event", event_name(kind));
         self.place(event, &name, &mut line);
         self.fields(kind, &name, event, diagnostic, &mut line);
-        if self.with_time {
+        if self.with_time || matches!(kind, EventKind::Signal(..)) {
             line.number("time", event.time.0);
         }
         line.end();
@@ -127,6 +127,9 @@ impl<'c> Tracer<'c> {
                 line.number("revolutions", *turns);
             }
             EventKind::Code(code) => self.code(*code, line),
+            EventKind::Signal(signal, on) => {
+                line.text("name", &self.signal_name(*signal)).boolean("on", *on);
+            }
             EventKind::Finished(code) => {
                 line.text("for", code_letter(*code));
             }
@@ -149,6 +152,12 @@ impl<'c> Tracer<'c> {
             }
             EventKind::BlockDone | EventKind::Waited(_) => {}
         }
+    }
+
+    /// What a line between control and machine is called.
+    pub fn signal_name(&self, signal: Signal) -> String {
+        let decoded = |code| self.control.m_code(code).and_then(|row| row.decoded.clone()).unwrap_or_default();
+        signal.name(decoded, |axis| self.axis_name(usize::from(axis)).to_ascii_uppercase())
     }
 
     fn axis_name(&self, axis: usize) -> &str {
@@ -259,6 +268,7 @@ fn event_name(kind: &EventKind) -> &'static str {
         EventKind::Dwell(_) => "dwell",
         EventKind::Code(code) => code_letter(code.line),
         EventKind::Finished(_) => "fin",
+        EventKind::Signal(..) => "signal",
         EventKind::Set(_) => "set",
         EventKind::Stop(_) => "stop",
         EventKind::Alarm(_) => "alarm",

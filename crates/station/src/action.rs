@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::fault::Fault;
 use crate::setup::OffsetColumn;
 
 /// What to show.
@@ -111,6 +112,8 @@ pub enum Action {
     Parameter(dialect::ParameterSetting),
     /// `variable 500 = 1.5`; no value makes it blank
     Variable(u32, Option<f64>),
+    /// `fault …`
+    Fault(Fault),
     /// `show …`
     Show(Show),
     /// `run until …`
@@ -189,6 +192,7 @@ impl fmt::Display for Action {
             },
             Action::Variable(number, Some(value)) => write!(f, "variable {number} = {value}"),
             Action::Variable(number, None) => write!(f, "variable {number} = blank"),
+            Action::Fault(fault) => write!(f, "fault {fault}"),
             Action::Show(show) => write!(f, "show {show}"),
             Action::Run(until) => write!(f, "run {until}"),
             Action::NotBuilt(line) => f.write_str(line),

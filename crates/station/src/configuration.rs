@@ -25,7 +25,7 @@ impl std::fmt::Display for ConfigurationError {
 impl std::error::Error for ConfigurationError {}
 
 /// The inputs that can be held.
-const INPUTS: &str = "EOP, RWD, skip, interrupt, UI0 to UI31";
+const INPUTS: &str = "EOP, RWD, skip, interrupt, FIN, UI0 to UI31";
 
 /// Signals held by hand; `None` follows the machine's wiring.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -53,13 +53,14 @@ impl Inputs {
             "RWD" => self.rwd = Some(on),
             "skip" => self.skip = on,
             "interrupt" => self.interrupt = on,
-            "FIN" | "overtravel" | "servo-power" | "servo-fault" | "battery-low" | "memory-fault" => {
+            "FIN" => return Err(wrong("`FIN` is given by an operator's script: input FIN on".to_owned())),
+            "overtravel" | "servo-power" | "servo-fault" | "battery-low" | "memory-fault" => {
                 return Err(wrong(format!("the input `{name}` is not built yet")));
             }
             _ => {
                 let number = name.strip_prefix("UI").and_then(|digits| digits.parse::<u32>().ok());
                 let Some(number @ 0..=31) = number else {
-                    return Err(wrong(match nearest(name, ["EOP", "RWD", "skip", "interrupt"].into_iter()) {
+                    return Err(wrong(match nearest(name, ["EOP", "RWD", "skip", "interrupt", "FIN"].into_iter()) {
                         Some(near) => format!("there is no input `{name}`, perhaps `{near}` is meant"),
                         None => format!("there is no input `{name}`; the inputs are {INPUTS}"),
                     }));

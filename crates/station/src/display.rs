@@ -2,7 +2,8 @@
 
 use base::{AXES, Alarm, Diagnostic, Point};
 use dialect::{GroupCodes, MMeaning, Meaning};
-use meaning::Corner;
+use machine::Waiting;
+use meaning::{CodeLine, Corner};
 
 use crate::action::Show;
 use crate::library::Library;
@@ -117,11 +118,13 @@ impl<L: Library> Operator<L> {
         let session = &self.session;
         let alarm = session.alarm().map(|alarm| session.configuration().control.alarm_name(alarm).name);
         let waiting = if session.is_stopped() {
-            Some("cycle-start")
+            Some("cycle-start".to_owned())
+        } else if let Some(waiting) = session.waiting() {
+            Some(self.awaited(&waiting))
         } else if session.waits_for_feed() {
-            Some("feed-override")
+            Some("feed-override".to_owned())
         } else if session.goes_round() {
-            Some("the end of an endless program")
+            Some("the end of an endless program".to_owned())
         } else {
             None
         };
@@ -129,11 +132,23 @@ impl<L: Library> Operator<L> {
             ("mode", Value::text(&self.mode().name)),
             ("running", Value::Truth(session.is_running() && !session.is_stopped())),
             ("held", Value::Truth(session.is_held())),
-            ("waiting_for", Value::text_or_null(waiting)),
+            ("waiting_for", Value::text_or_null(waiting.as_deref())),
             ("alarm", Value::text_or_null(alarm.as_deref())),
             ("program", Value::text_or_null(self.running_name())),
             ("line", Value::Number(session.place().line as f64)),
         ])
+    }
+
+    /// What the control waits for at the machine, in words.
+    fn awaited(&self, waiting: &Waiting) -> String {
+        let letter = match waiting.code.line {
+            CodeLine::M => 'M',
+            CodeLine::S => 'S',
+            CodeLine::T => 'T',
+            CodeLine::B => 'B',
+        };
+        let state = if waiting.on { "FIN" } else { "FIN off" };
+        format!("{state} after {letter}{:02}", waiting.code.code)
     }
 
     /// The program in which the line being executed stands; the selected one while nothing is executed.

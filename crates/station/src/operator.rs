@@ -14,7 +14,9 @@ use syntax::Cursor;
 use crate::action::{Action, Until};
 use crate::catalogue::programs_in;
 use crate::display::Value;
+use crate::fault::Fault;
 use crate::library::{Library, LibraryError, Shelf, Wanted};
+use crate::memory;
 use crate::session::{Session, Step};
 use table::Begins;
 
@@ -133,7 +135,7 @@ impl<L: Shelf> Operator<L> {
                 self.session.forget_rehearsal();
             } else {
                 self.session.stand_soon();
-                if !table::acts_at_block_ends(action) {
+                if !table::acts_at_block_ends(action) && !table::acts_at_once(action) {
                     self.waiting.push_back(action.clone());
                     return Ok(Ok(()));
                 }
@@ -157,6 +159,7 @@ impl<L: Shelf> Operator<L> {
                 self.session.begin_rounds();
                 self.run(until, tell)?;
             }
+            Action::Fault(fault) => return Ok(self.break_down(*fault)),
             Action::Key(name) => return Ok(self.press_key(name)),
             Action::Select(name) => return Ok(self.select(name)),
             Action::Mode(name) => return Ok(self.turn_mode(name)),
@@ -196,6 +199,15 @@ impl<L: Shelf> Operator<L> {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Something breaks on purpose.
+    fn break_down(&mut self, fault: Fault) -> Result<(), String> {
+        if let Fault::Limit(letter, ..) | Fault::Servo(letter) = fault {
+            memory::axis_of(&self.session.configuration().machine, letter).map_err(|error| error.0)?;
+        }
+        self.session.break_down(fault);
+        Ok(())
     }
 
     fn turn_mode(&mut self, name: &str) -> Result<(), String> {

@@ -3,6 +3,7 @@
 use dialect::ParameterSetting;
 
 use crate::action::{Action, OverrideSwitch, Show, Until};
+use crate::fault::read_fault;
 use crate::setup::OffsetColumn;
 
 /// A line that is no action.
@@ -105,6 +106,7 @@ pub fn read_action(line: &str) -> Result<Action, String> {
         }
         ("override", [switch, percent]) => Action::Override(override_switch(switch)?, whole(percent, "percentage")?),
         ("offset" | "work" | "parameter" | "variable", _) => write(verb, rest, line)?,
+        ("fault", words) => Action::Fault(read_fault(words)?),
         ("show", [what, of @ ..]) => Action::Show(show(what, &of.join(" ")).ok_or_else(no_action)??),
         ("run", ["until", until @ ..]) => Action::Run(self::until(until).ok_or_else(no_action)??),
         ("run", ["for", seconds]) => Action::Run(Until::Seconds(finite(seconds)?.max(0.0))),
@@ -265,6 +267,11 @@ mod tests {
             "run until line 3",
             "emergency-stop",
             "key F10",
+            "fault fin never",
+            "fault spindle-speed",
+            "fault limit X + at 12.5",
+            "fault servo X",
+            "fault power",
         ] {
             assert_eq!(read_action(line).expect(line).to_string(), line);
         }
@@ -277,6 +284,8 @@ mod tests {
             "run until",
             "mdi",
             "variable 1 = nan",
+            "fault fin late",
+            "fault limit X at 3",
         ] {
             assert!(read_action(line).is_err(), "{line}");
         }

@@ -1,5 +1,6 @@
 //! A program in execution: the stages chained, their questions answered, their events handed out one by one.
 
+mod awaiting;
 mod barriers;
 mod execution;
 mod live;
@@ -7,6 +8,7 @@ mod locks;
 mod rehearsal;
 mod states;
 mod telling;
+mod trips;
 mod typed;
 
 use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
@@ -103,6 +105,14 @@ pub struct Session<L> {
     begun: Option<u64>,
     /// Codes have gone out in the block in execution.
     codes_out: bool,
+    /// A block that has closed but for its codes.
+    closing: awaiting::Closing,
+    /// What comes next waits for codes.
+    awaited: bool,
+    /// The overtravel switch onto which an axis has run.
+    tripped: Option<machine::LimitSwitch>,
+    /// The power failed while this block was being executed.
+    interrupted: Option<Place>,
     stopped: bool,
     /// By FEED HOLD.
     feed_held: bool,
@@ -138,6 +148,7 @@ impl<L: Library> Session<L> {
         let mut virtual_machine = VirtualMachine::new(&machine, start, fitting.policies.stroke_check);
         virtual_machine.set_contact(contact);
         virtual_machine.set_skip(inputs.skip);
+        virtual_machine.wire(awaiting::decoded_lines(&configuration, &inputs));
         let motion = Motion::new(Path::new(interpreter, start), machine.limits());
         let mut session = Session {
             motion,
@@ -173,6 +184,10 @@ impl<L: Library> Session<L> {
             told: None,
             begun: None,
             codes_out: false,
+            closing: None,
+            awaited: false,
+            tripped: None,
+            interrupted: None,
             stopped: false,
             feed_held: false,
             powered: true,
@@ -335,20 +350,6 @@ impl<L: Library> Session<L> {
         Ok(())
     }
 
-    /// Holds an input by hand.
-    ///
-    /// # Errors
-    /// Why not, in words.
-    pub fn set_input(&mut self, name: &str, on: bool) -> Result<(), String> {
-        let interrupt = self.inputs.interrupt;
-        self.inputs.set(name, on).map_err(|error| error.0)?;
-        if self.inputs.interrupt && !interrupt {
-            self.interrupt();
-        }
-        self.machine.set_skip(self.inputs.skip);
-        Ok(())
-    }
-
     /// Turns the override switches.
     pub fn set_percents(&mut self, percents: Percents) {
         self.percents = percents;
@@ -396,7 +397,7 @@ impl<L: Library> Session<L> {
     /// The place of a block of which nothing has been executed yet, told once for each; `None` if something else
     /// comes first.
     pub fn block_begins(&mut self) -> Option<Place> {
-        let busy = !self.has_told_all() || self.under_way.is_some();
+        let busy = !self.has_told_all() || self.under_way.is_some() || self.closing.is_some();
         if busy || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
             return None;
         }

@@ -50,6 +50,23 @@ impl std::str::FromStr for Window {
     }
 }
 
+/// A part of the time, s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct During(pub [f64; 2]);
+
+impl std::str::FromStr for During {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<During, String> {
+        let times =
+            text.split_once(',').and_then(|(from, to)| Some([from.trim().parse().ok()?, to.trim().parse().ok()?]));
+        match times {
+            Some([from, to]) if 0.0 <= from && from < to && to < 1e9 => Ok(During([from, to])),
+            _ => Err("two times in s, the earlier first, such as 2.5,4".to_owned()),
+        }
+    }
+}
+
 /// How many times a deviation is drawn.
 fn times(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| (1.0..=1e6).contains(number));
@@ -80,6 +97,12 @@ pub struct PlotArguments {
     /// Instead of the path, speed and the velocity of every axis over time
     #[arg(long, conflicts_with_all = ["layers", "view", "around", "exaggerate"])]
     pub chart: bool,
+    /// Instead of the path, the signals between control and machine over time: codes, strobes, FIN, DEN, inputs
+    #[arg(long, conflicts_with_all = ["chart", "layers", "view", "around", "exaggerate"])]
+    pub timing: bool,
+    /// Only this part of the time, in s, such as 2.5,4
+    #[arg(long, value_name = "FROM,TO", requires = "timing")]
+    pub during: Option<During>,
     /// Width of a PNG in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(200..=8000))]
     pub width: u32,

@@ -41,6 +41,7 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     let mut session = Session::new(configuration, texts);
     session.interpreter_mut().set_loop_limit(arguments.setting.loop_limit);
     session.interpreter_mut().tell_variables(true);
+    session.tell_signals(arguments.io);
     let mut operator = Operator::new(session);
     let mut output = Output::new();
     let mut failed = None;

@@ -3,6 +3,7 @@
 mod chart;
 mod driven;
 mod strokes;
+mod timing;
 
 use machine::EventKind;
 use meaning::CodeLine;
@@ -37,6 +38,9 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
     };
     if arguments.chart {
         return chart::chart(arguments, picture);
+    }
+    if arguments.timing {
+        return timing::timing(arguments, picture);
     }
     agrees(arguments)?;
     let mut session = open(&arguments.file, &arguments.setting)?;

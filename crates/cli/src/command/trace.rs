@@ -12,7 +12,8 @@ use crate::show_alarm::show_alarm;
 pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
     let mut session = open(&arguments.file, &arguments.setting)?;
     session.interpreter_mut().tell_variables(true);
-    if arguments.time {
+    session.tell_signals(arguments.io);
+    if arguments.time || arguments.io {
         session.plan_ahead();
     }
     let configuration = session.configuration().clone();

@@ -83,7 +83,11 @@ pub fn happening(control: &Control, axes: &[MachineAxis], event: &Event) -> Opti
             let rewind = if *rewind { "the program is back at its head" } else { "no rewind" };
             line("end", format!("{}: {reset}, {rewind}", end_name(*kind)))
         }
-        EventKind::Finished(_) | EventKind::BlockDone | EventKind::Start(_) | EventKind::Alarm(_) => return None,
+        EventKind::Finished(_)
+        | EventKind::Signal(..)
+        | EventKind::BlockDone
+        | EventKind::Start(_)
+        | EventKind::Alarm(_) => return None,
         // Whatever else there is speaks in the words of the trace.
         _ => line(Tracer::event_word(&event.kind), trace_fields(control, axes, event)),
     })

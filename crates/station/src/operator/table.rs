@@ -63,6 +63,8 @@ enum Kind {
     Offset,
     Parameter,
     Variable,
+    /// Faults made on purpose.
+    Fault,
     Show,
     Run,
     NotBuilt,
@@ -87,6 +89,7 @@ fn kind(action: &Action) -> Kind {
         Action::Offset(..) | Action::Work(..) => Kind::Offset,
         Action::Parameter(_) => Kind::Parameter,
         Action::Variable(..) => Kind::Variable,
+        Action::Fault(_) => Kind::Fault,
         Action::Show(_) => Kind::Show,
         Action::Run(_) => Kind::Run,
         Action::NotBuilt(_) => Kind::NotBuilt,
@@ -97,10 +100,22 @@ fn kind(action: &Action) -> Kind {
 /// end of one.
 pub(super) fn changes_what_follows(action: &Action) -> bool {
     match kind(action) {
-        Kind::Turn => !matches!(action, Action::Override(..)),
+        Kind::Turn => match action {
+            Action::Override(..) => false,
+            Action::Input(name, _) => !ANSWERS.contains(&name.as_str()),
+            _ => true,
+        },
         Kind::Offset | Kind::Parameter | Kind::Variable | Kind::Load | Kind::Select | Kind::Type => true,
         _ => false,
     }
+}
+
+/// Inputs by which the machine answers codes: they change no move.
+const ANSWERS: [&str; 3] = ["FIN", "EOP", "RWD"];
+
+/// Inputs that act in the moment in which they turn on, also in the middle of a move.
+pub(super) fn acts_at_once(action: &Action) -> bool {
+    matches!(action, Action::Input(name, _) if name == "skip" || name == "interrupt")
 }
 
 /// True for SINGLE BLOCK, which is looked at as a block ends and need not wait for that.
@@ -144,6 +159,7 @@ const TABLE: &[(Kind, [Answer; 6])] = &[
     (Kind::Offset,        [OFF,      GO,        GO,          GO,          GO,        GO]),
     (Kind::Parameter,     [OFF,      GO,        GO,          GO,          RUNS,      STOPPED]),
     (Kind::Variable,      [OFF,      GO,        GO,          GO,          GO,        GO]),
+    (Kind::Fault,         [OFF,      GO,        GO,          GO,          GO,        GO]),
     (Kind::Show,          [OFF,      GO,        GO,          GO,          GO,        GO]),
     (Kind::Run,           [GO,       GO,        GO,          GO,          GO,        GO]),
     (Kind::NotBuilt,      [NOT_YET,  NOT_YET,   NOT_YET,     NOT_YET,     NOT_YET,   NOT_YET]),

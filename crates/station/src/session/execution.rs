@@ -63,7 +63,7 @@ impl<L: Library> Session<L> {
     }
 
     /// The switches that act from block to block are looked at.
-    fn begin_block(&mut self) {
+    pub(super) fn begin_block(&mut self) {
         self.between_blocks = false;
         self.tell_block();
         // #3004 bit 1: the program fixes the feed override at 100 %.
@@ -78,7 +78,7 @@ impl<L: Library> Session<L> {
     }
 
     /// The codes that begin the block go out, if its first move may begin; false if it is refused.
-    fn start_codes(&mut self) -> bool {
+    pub(super) fn start_codes(&mut self) -> bool {
         if self.codes.is_empty() {
             return true;
         }
@@ -151,7 +151,7 @@ impl<L: Library> Session<L> {
     }
 
     /// Codes that go out in spite of the auxiliary lock: the M codes that the control itself knows.
-    fn is_obeyed(&self, code: CodeOut) -> bool {
+    pub(super) fn is_obeyed(&self, code: CodeOut) -> bool {
         code.line == CodeLine::M && self.configuration.control.m_code(code.code).is_some()
     }
 
@@ -219,14 +219,17 @@ impl<L: Library> Session<L> {
     fn close(&mut self, close: Close, place: Place) {
         self.between_blocks = true;
         self.settle_returned(&place);
-        // #3003 bit 1: the program does not wait for FIN.
-        let waits = self.executing_state(|state| state.block_control & 2 == 0);
-        if std::mem::take(&mut self.codes_out) && waits {
+        if std::mem::take(&mut self.codes_out) && self.waits_for_codes() {
             self.rest();
         }
-        let since = self.machine.time();
+        self.closing = Some((close, place));
+        self.go_on_closing();
+    }
+
+    /// The block is done when its codes are.
+    pub(super) fn finish(&mut self, close: Close, place: Place) {
+        let waits = self.waits_for_codes();
         self.machine.finish_block(&place, waits, &mut self.events);
-        self.pass_since(since);
         match close {
             Close::Stop(kind) => self.stop(place, kind),
             Close::End(kind) => self.end(kind, place),
@@ -234,6 +237,11 @@ impl<L: Library> Session<L> {
             Close::Next if place.line > 0 && self.stops_at_blocks() => self.stop(place, StopKind::SingleBlock),
             Close::Next => {}
         }
+    }
+
+    /// #3003 bit 1: the program does not wait for FIN.
+    pub(super) fn waits_for_codes(&self) -> bool {
+        self.executing_state(|state| state.block_control & 2 == 0)
     }
 
     /// SINGLE BLOCK is on, the program does not keep it from acting (#3003 bit 0), and the axes stand: switched on in a

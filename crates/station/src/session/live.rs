@@ -76,7 +76,12 @@ impl<L: Library> Session<L> {
     /// Time passes in which nothing happens.
     pub fn let_time_pass(&mut self, until: Seconds) {
         if self.under_way.is_none() {
-            self.machine.stand_until(until);
+            let trip = self.next_trip();
+            if trip <= until.0 {
+                self.machine.stand_until(Seconds(trip), &mut self.events);
+                self.look_for_trips();
+            }
+            self.machine.stand_until(until, &mut self.events);
         }
     }
 
@@ -89,7 +94,8 @@ impl<L: Library> Session<L> {
     pub(super) fn begin_move(&mut self) -> bool {
         let shaped = self.motion.upstream.current();
         let place = shaped.place;
-        let ends_by_itself = !shaped.until_signal && self.real_shape().is_none();
+        let is_led = !shaped.until_signal || self.machine.awaits_skip();
+        let ends_by_itself = is_led && self.real_shape().is_none();
         let is_known = !self.motion.is_joined() || self.motion.knows_next();
         if !ends_by_itself || !is_known || self.machine.cannot_end(&self.motion.current()) {
             self.motion.plan();
@@ -105,8 +111,12 @@ impl<L: Library> Session<L> {
     pub(super) fn go_on_moving(&mut self) -> bool {
         loop {
             let stride = self.machine.time().0 + self.elapsed() + STRIDE_S;
+            let stride = stride.min(self.next_trip());
             if self.drive(self.deadline.map_or(stride, |deadline| deadline.0.min(stride))) {
                 self.complete();
+                return true;
+            }
+            if self.tripped.is_some() || self.next_trip() <= self.time().0 {
                 return true;
             }
             if self.is_time_up() || self.motion.is_standing() {
@@ -118,7 +128,8 @@ impl<L: Library> Session<L> {
     /// Drives the move under way until then, at most to its end; true if that is reached. Setpoints on the way go to the
     /// machine, if it takes them.
     fn drive(&mut self, until: f64) -> bool {
-        if self.machine.drives().is_none() {
+        let looks = !self.machine.switches().is_empty();
+        if self.machine.drives().is_none() && !looks {
             return self.drive_on(until);
         }
         loop {
@@ -131,6 +142,12 @@ impl<L: Library> Session<L> {
             if let Some(setpoint) = self.motion.setpoint() {
                 self.machine.follow(Seconds(next), &setpoint);
             }
+            if looks {
+                self.look_at_switches();
+                if self.tripped.is_some() {
+                    return false;
+                }
+            }
         }
     }
 
@@ -139,6 +156,8 @@ impl<L: Library> Session<L> {
         let seconds = (until - self.machine.time().0 - under_way.elapsed).max(0.0);
         let (left, ended) = self.motion.drive_for(seconds);
         under_way.elapsed += if ended { seconds - left } else { seconds };
+        let now = self.time();
+        self.machine.pass_signals(now, &mut self.events);
         ended
     }
 
@@ -160,6 +179,18 @@ impl<L: Library> Session<L> {
     /// What the machine's drives have been sent.
     pub fn drives(&self) -> Option<&Drives> {
         self.machine.drives()
+    }
+
+    /// The skip signal has come in the move that waits for it: the move ends there.
+    pub(super) fn skip_move_under_way(&mut self) {
+        if !self.motion.upstream.current().until_signal || self.under_way.is_none() {
+            return;
+        }
+        let at = self.motion.setpoint().map(|setpoint| setpoint.position);
+        self.machine.skip_at(at);
+        self.complete();
+        self.machine.skip_at(None);
+        self.motion.drop_rest();
     }
 
     /// The move under way has ended.

@@ -119,7 +119,12 @@ impl<L: Library> Session<L> {
     }
 
     /// Something has been touched: what follows is no longer what was rehearsed.
+    ///
+    /// A move that FEED HOLD keeps in its middle is still to be made to its end.
     pub fn forget_rehearsal(&mut self) {
+        if self.under_way.is_some() {
+            return self.stand_soon();
+        }
         self.rehearsal = None;
         self.motion.forget_ahead();
     }
@@ -173,7 +178,7 @@ impl<L: Library> Session<L> {
         let passed = self.machine.time() - since;
         if self.motion.plans() && passed.0 > 0.0 {
             let longer = self.motion.pass(passed.0);
-            self.machine.stand_until(self.machine.time() + Seconds(longer));
+            self.machine.stand_until(self.machine.time() + Seconds(longer), &mut self.events);
         }
     }
 
@@ -260,6 +265,10 @@ impl<L: Library> Session<L> {
             between_blocks: false,
             told: None,
             begun: self.begun,
+            closing: None,
+            awaited: false,
+            tripped: None,
+            interrupted: None,
             codes_out: self.codes_out,
             stopped: false,
             feed_held: false,

@@ -27,6 +27,8 @@ impl<L: Library> Session<L> {
         let alarm = Alarm::new(Condition::EmergencyStop, place, place.block);
         self.emergency = true;
         self.settle();
+        let now = self.time();
+        self.machine.stop_spindle(now, &mut self.events);
         self.tell(place, EventKind::Alarm(alarm));
         self.change_states(Occasion::EmergencyStop, ResetCause::EmergencyStop);
         self.forget_typed();
@@ -46,6 +48,8 @@ impl<L: Library> Session<L> {
     /// The power goes off: what is under way is lost, what the memory keeps is kept.
     pub fn power_off(&mut self) {
         self.break_off();
+        let now = self.time();
+        self.machine.stop_spindle(now, &mut self.events);
         self.interpreter_mut().store_codes();
         self.drop_work();
         self.come_back();
@@ -65,6 +69,7 @@ impl<L: Library> Session<L> {
         self.rewound = true;
         self.look_for_label(Occasion::PowerOn);
         self.pass_overrides();
+        self.tell_of_power_failure();
         if self.emergency {
             let alarm = Alarm::new(Condition::EmergencyStop, Place::default(), Place::default().block);
             self.tell(alarm.place, EventKind::Alarm(alarm));
@@ -88,12 +93,17 @@ impl<L: Library> Session<L> {
         if !self.is_running() || self.stopped {
             return;
         }
+        let under_way = self.under_way.is_some() || self.is_moving();
+        if under_way && self.interpreter().executing_state().interrupt.is_some() {
+            self.break_off();
+        }
         let (position, place) = (self.counted_position(), self.place());
         let begun = !self.pulled || self.begun == Some(self.motion.upstream.current().block);
         if !self.interpreter_mut().interrupt(&position, begun) {
             return;
         }
         self.codes.clear();
+        self.closing = None;
         self.motion.upstream.stand_at(&position);
         self.between_blocks = true;
         self.pulled = false;
@@ -119,6 +129,9 @@ impl<L: Library> Session<L> {
         }
         self.look_for_label(occasion);
         self.alarm = None;
+        if occasion != Occasion::ProgramEnd {
+            self.mend();
+        }
         let groups = self.interpreter().read_state().groups;
         self.tell(place, EventKind::Reset { cause, groups });
     }
@@ -148,6 +161,12 @@ impl<L: Library> Session<L> {
         self.label_skip
     }
 
+    /// As far as the control counts, the axes are where they are.
+    pub(super) fn settle_counters(&mut self) {
+        let position = self.counted_position();
+        self.motion.upstream.stand_at(&position);
+    }
+
     /// The counters of all axes are set to where the axes are.
     fn settle(&mut self) {
         let axes = self.configuration.machine.travel().axes;
@@ -156,7 +175,9 @@ impl<L: Library> Session<L> {
 
     /// Whatever is under way is dropped.
     fn drop_work(&mut self) {
-        self.machine.drop_codes();
+        self.machine.drop_codes(&mut self.events);
+        self.closing = None;
+        self.awaited = false;
         self.codes.clear();
         self.between_blocks = true;
         self.pulled = false;

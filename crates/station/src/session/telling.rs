@@ -41,11 +41,18 @@ impl<L: Library> Session<L> {
             self.ended = true;
             return Some(Step::Failed(error));
         }
+        if self.look_for_trips() {
+            return None;
+        }
         if self.stopped {
             return Some(Step::Stopped);
         }
         if self.ended || self.alarm.is_some() || self.goes_round() || self.is_time_up() {
             return Some(Step::Idle);
+        }
+        if self.closing.is_some() {
+            let still = !self.go_on_closing() && self.has_told_all() && self.next_trip() > self.time().0;
+            return still.then_some(Step::Idle);
         }
         if self.under_way.is_some() {
             return if self.go_on_moving() { None } else { Some(Step::Idle) };
@@ -53,6 +60,11 @@ impl<L: Library> Session<L> {
         if self.pull() {
             self.pulled = self.stands_still() || self.alarm.is_some();
             let held = self.pulled || self.live && self.takes_waiting_hold();
+            if !held && self.waits_for_machine() {
+                self.pulled = true;
+                let still = self.has_told_all() && self.next_trip() > self.time().0;
+                return still.then_some(Step::Idle);
+            }
             if !held {
                 self.execute();
             } else if self.has_told_all() {
