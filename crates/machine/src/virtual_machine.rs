@@ -160,6 +160,14 @@ impl VirtualMachine {
         self.refusal(timed).is_some()
     }
 
+    /// The part of a move that stays within the travel and out of the stored stroke area, and why it is not all of it.
+    pub fn free_part(&self, timed: &Timed<'_>) -> (Shape, Option<Refusal>) {
+        match self.refusal(timed) {
+            Some((refusal, met)) => (until(&timed.shaped.shape, &met, self.rates.as_ref()).0, Some(refusal)),
+            None => (timed.shaped.shape, None),
+        }
+    }
+
     /// Time passes in which nothing happens.
     pub fn stand_until(&mut self, time: Seconds) {
         self.time = Seconds(self.time.0.max(time.0));

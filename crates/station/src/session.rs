@@ -1,6 +1,7 @@
 //! A program in execution: the stages chained, their questions answered, their events handed out one by one.
 
 mod barriers;
+mod by_hand;
 mod execution;
 mod live;
 mod locks;
@@ -20,6 +21,7 @@ use crate::library::{Library, LibraryError};
 use crate::lock::AxisLock;
 use crate::switches::SessionSwitches;
 
+pub use by_hand::HandMove;
 pub use locks::Percents;
 pub use typed::TYPED;
 use typed::Typed;
@@ -61,6 +63,7 @@ pub struct Session<L> {
     /// Moves take their time.
     live: bool,
     under_way: Option<live::UnderWay>,
+    by_hand: Option<by_hand::ByHand>,
     /// From one setpoint to the next, s.
     servo_period: f64,
     /// No more time passes than to this one.
@@ -147,6 +150,7 @@ impl<L: Library> Session<L> {
             met: None,
             live: false,
             under_way: None,
+            by_hand: None,
             servo_period: machine.limits().servo_period,
             deadline: None,
             hold_waits: false,
@@ -238,7 +242,10 @@ impl<L: Library> Session<L> {
 
     /// Where the axes are, mm and degrees in machine coordinates.
     pub fn position(&self) -> Point {
-        self.setpoint().map_or(*self.machine.position(), |setpoint| setpoint.position)
+        match &self.by_hand {
+            Some(by_hand) => by_hand.setpoint().position,
+            None => self.setpoint().map_or(*self.machine.position(), |setpoint| setpoint.position),
+        }
     }
 
     /// Virtual time since power-on.

@@ -50,7 +50,18 @@ fn button() -> impl Strategy<Value = Action> {
         4 => Just(Action::Reset),
         1 => Just(Action::EmergencyStop),
         2 => Just(Action::Release),
-        1 => Just(Action::NotBuilt("jog X + for 2".to_owned())),
+    ]
+}
+
+/// The buttons of the manual modes.
+fn by_hand() -> impl Strategy<Value = Action> {
+    let axis = select(b"XZQ".to_vec());
+    let seconds = prop::option::of(select(vec![0.0, 0.01, 0.5, 100.0]));
+    let way = select(vec![0.0, 0.001, -0.1, 1.0, -1.0, 0.0004, 1e9]);
+    prop_oneof![
+        (axis.clone(), any::<bool>(), seconds).prop_map(|(axis, up, seconds)| Action::Jog(axis, up, seconds)),
+        (axis.clone(), way).prop_map(|(axis, way)| Action::Step(axis, way)),
+        axis.prop_map(Action::Home),
     ]
 }
 
@@ -99,6 +110,7 @@ fn action() -> impl Strategy<Value = Action> {
         Just(Until::End),
         Just(Until::Alarm),
         Just(Until::Idle),
+        select(vec![0.005, 0.3]).prop_map(Until::Seconds),
         (0u64..8).prop_map(Until::Line)
     ];
     let show =
@@ -107,7 +119,8 @@ fn action() -> impl Strategy<Value = Action> {
         2 => program.prop_map(Action::Select),
         8 => button(),
         3 => write(),
-        2 => names(&["memory", "mdi", "tape", "jog", "none"]).prop_map(Action::Mode),
+        3 => names(&["memory", "mdi", "tape", "jog", "step", "handle", "rapid", "return", "none"]).prop_map(Action::Mode),
+        4 => by_hand(),
         2 => names(TYPED).prop_map(Action::Mdi),
         8 => until.prop_map(Action::Run),
         1 => show.prop_map(Action::Show),
@@ -146,7 +159,18 @@ impl Station {
             Said::Refused { .. } => *refused = true,
             Said::Shown { .. } => {}
         };
+        let (from, dead) =
+            (operator.session.position(), operator.session.emergency_stop() || !operator.session.is_powered());
         operator.perform(action, &mut tell).expect("texts in memory can be read");
+        let may_move = match action {
+            Action::Run(_) | Action::Jog(..) | Action::Step(..) => !dead && !*refused,
+            // The axes come to stand.
+            Action::FeedHold | Action::Reset | Action::EmergencyStop | Action::PowerOff => !*refused,
+            _ => false,
+        };
+        let to = operator.session.position();
+        let moved = from.iter().zip(to).any(|(from, to)| (from - to).abs() > 1e-6);
+        assert!(may_move || !moved, "no motion without a cause: {action}, {from:?} to {to:?}");
     }
 
     fn script(&mut self, lines: &[&str]) {

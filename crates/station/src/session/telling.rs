@@ -41,6 +41,9 @@ impl<L: Library> Session<L> {
             self.ended = true;
             return Some(Step::Failed(error));
         }
+        if self.by_hand.is_some() {
+            return if self.go_on_by_hand() { None } else { Some(Step::Idle) };
+        }
         if self.stopped {
             return Some(Step::Stopped);
         }
