@@ -114,8 +114,17 @@ fn distance(way: &Way, place: &Point, enough: f64) -> f64 {
         return apart(s.clamp(0.0, length));
     }
     let at = |step: usize| length * step as f64 / PLACES as f64;
-    let nearest = (0..=PLACES).min_by(|one, other| apart(at(*one)).total_cmp(&apart(at(*other)))).unwrap_or(0);
-    let (mut low, mut high) = (at(nearest.saturating_sub(1)), at((nearest + 1).min(PLACES)));
+    // A full circle begins where it ends: both halves of a way are searched.
+    let halves = [0..=PLACES / 2, PLACES / 2..=PLACES];
+    let off = halves.map(|steps| {
+        let nearest = steps.min_by(|one, other| apart(at(*one)).total_cmp(&apart(at(*other)))).unwrap_or(0);
+        narrowed(apart, [at(nearest.saturating_sub(1)), at((nearest + 1).min(PLACES))], enough)
+    });
+    off[0].min(off[1])
+}
+
+/// The least of what falls and then rises between two places; it is not asked for more exactly than `enough` wants.
+fn narrowed(apart: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2], enough: f64) -> f64 {
     for _ in 0..STEPS {
         let third = (high - low) / 3.0;
         if apart(low + third) < apart(high - third) {
