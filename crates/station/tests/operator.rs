@@ -110,7 +110,6 @@ fn action() -> impl Strategy<Value = Action> {
         Just(Until::End),
         Just(Until::Alarm),
         Just(Until::Idle),
-        select(vec![0.005, 0.3]).prop_map(Until::Seconds),
         (0u64..8).prop_map(Until::Line)
     ];
     let show =
@@ -156,14 +155,17 @@ impl Station {
                 watch.see(&event, session);
                 events.push(event);
             }
-            Said::Refused { .. } => *refused = true,
+            // An action that had to wait is refused in a later one.
+            Said::Refused { action: of, .. } => *refused |= of == action.to_string(),
             Said::Shown { .. } => {}
         };
         let (from, dead) =
             (operator.session.position(), operator.session.emergency_stop() || !operator.session.is_powered());
         operator.perform(action, &mut tell).expect("texts in memory can be read");
         let may_move = match action {
-            Action::Run(_) | Action::Jog(..) | Action::Step(..) => !dead && !*refused,
+            // What is refused in it is an action that had to wait.
+            Action::Run(_) => !dead,
+            Action::Jog(..) | Action::Step(..) => !dead && !*refused,
             // The axes come to stand.
             Action::FeedHold | Action::Reset | Action::EmergencyStop | Action::PowerOff => !*refused,
             _ => false,
