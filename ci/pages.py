@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Makes the programmer's pages docs/CONTROL/*.md from the tables of controls/ and the cases.
+"""Makes the programmer's pages docs/CONTROL/*.md from the tables of controls/ and the cases, and docs/operating.md from
+the station's table of actions.
 
     ci/pages.py            writes them
     ci/pages.py --check    says which would change, and exits with 1 if any would
 """
 import json
+import re
 import sys
 import tomllib
 from pathlib import Path
@@ -181,6 +183,48 @@ def index(control: Control) -> str:
     return "\n".join(lines).rstrip() + "\n"
 
 
+STATES = ["power off", "emergency stop", "alarm", "automatic mode, nothing runs", "manual mode, nothing moves", "axis moved by hand",
+          "program runs", "held (FEED HOLD)", "stopped (M00, M01, SINGLE BLOCK)"]
+ACTIONS = {
+    "PowerOn": "`power-on`", "PowerOff": "`power-off`", "Load": "`load`", "Select": "`select`", "Mode": "`mode`", "Type": "`mdi`",
+    "CycleStart": "`cycle-start`", "FeedHold": "`feed-hold`", "Reset": "`reset`", "Key": "`key` (then as what the key does)",
+    "EmergencyStop": "`emergency-stop`", "Release": "`release`", "Turn": "`switch`, `override`, `input`", "Offset": "`offset`, `work`",
+    "Parameter": "`parameter`", "Variable": "`variable`", "Fault": "`fault`", "Show": "`show`", "Run": "`run`", "Jog": "`jog`", "Step": "`step`", "Home": "`home`",
+}
+OPERATING = """The control is always in one of the nine states below. An action that it takes there is marked *yes*; any other is refused, changes
+nothing, and the letter says why. `cyclestart operate` answers from the same table.
+
+Axes are moved by hand in the manual modes, each button in its own:
+
+* `jog X +` in mode jog moves at the jog speed, in mode rapid at the rapid rate. With `for 2` the button is pressed for two seconds, and
+  the axis then comes to stand. Without it the button stays pressed while `run` lets time pass, until FEED HOLD or RESET.
+* `step X + 0.01` moves by one increment in mode step (0.001, 0.01, 0.1 or 1), in mode handle by as much as the handle is turned.
+* `home X` in mode return drives to the reference point at the rapid rate while `run` lets time pass; arrived, the axis is returned.
+
+FEED HOLD, RESET and EMERGENCY STOP stop the axis as fast as it can; what is left of its way is dropped. At the border of its travel it
+stands and the alarm says so; RESET, then move back. MACHINE LOCK (and Z-AXIS CANCEL for Z) keep it from moving by hand at all.
+With MANUAL ABSOLUTE on, what was moved by hand counts into the program's coordinates; off, the program runs beside its place by as
+much, until the axis is returned to its reference point, EMERGENCY STOP, or power-on."""
+
+
+def operating(controls: list[Control]) -> str:
+    """The page of the station's table, from the table itself."""
+    code = (ROOT / "crates" / "station" / "src" / "operator" / "table.rs").read_text(encoding="utf-8")
+    whys = dict(re.findall(r'^const (\w+): Answer = Some\("(.*?)"\);', code, re.MULTILINE))
+    rows = re.findall(r"\(Kind::(\w+),\s*\[([\w, ]+)\]\)", code)
+    letters = {why: chr(ord("a") + index) for index, why in enumerate(whys)}
+    cell = lambda answer: "yes" if answer == "GO" else letters[answer]
+    lines = ["# What the control takes when", "", "Made by `ci/pages.py` from the station's table.", "", OPERATING, ""]
+    lines += table(["action", *STATES], [[ACTIONS[kind], *map(cell, answers.replace(",", " ").split())] for kind, answers in rows])
+    lines += [f"* {letter}: {whys[why]}" for why, letter in letters.items()] + [""]
+    for control in controls:
+        station = tomllib.loads((ROOT / "controls" / control.name / "station.toml").read_text(encoding="utf-8"))
+        lines += [f"## Modes of {control.head['title']}", ""]
+        lines += table(["mode", "what it is for", "certainty"],
+                       [[f"`{row['name']}`", row["text"], certainty(control, row)] for row in station["mode"]])
+    return "\n".join(lines).rstrip() + "\n"
+
+
 def main() -> int:
     check = "--check" in sys.argv[1:]
     folders = sorted(path.parent for path in ROOT.glob("controls/*/pages.toml"))
@@ -206,6 +250,12 @@ def main() -> int:
                 (folder / name).write_text(wanted[name], encoding="utf-8")
             else:
                 (folder / name).unlink()
+    page, text = ROOT / "docs" / "operating.md", operating(controls)
+    if not page.is_file() or page.read_text(encoding="utf-8") != text:
+        if check:
+            faults.append("docs/operating.md is not what the station's table says: run ci/pages.py")
+        else:
+            page.write_text(text, encoding="utf-8")
     for fault in faults:
         print(fault, file=sys.stderr)
     return 1 if faults else 0

@@ -14,8 +14,16 @@ pub enum ModeKind {
     Mdi,
     /// Nothing: programs are loaded and changed.
     Edit,
-    /// Nothing: the axes are moved by hand.
-    Manual,
+    /// Nothing: an axis button moves its axis at the jog speed.
+    Jog,
+    /// Nothing: an axis button moves its axis by an increment.
+    Step,
+    /// Nothing: the pulse handle moves an axis by so many increments.
+    Handle,
+    /// Nothing: an axis button moves its axis at the rapid rate.
+    Rapid,
+    /// Nothing: an axis button returns its axis to the reference point.
+    Return,
 }
 
 /// What a key beside the usual buttons does.

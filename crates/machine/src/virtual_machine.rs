@@ -195,6 +195,14 @@ impl VirtualMachine {
         self.refusal(timed).is_some()
     }
 
+    /// The part of a move that stays within the travel and out of the stored stroke area, and why it is not all of it.
+    pub fn free_part(&self, timed: &Timed<'_>) -> (Shape, Option<Refusal>) {
+        match self.refusal(timed) {
+            Some((refusal, met)) => (until(&timed.shaped.shape, &met, self.rates.as_ref()).0, Some(refusal)),
+            None => (timed.shaped.shape, None),
+        }
+    }
+
     fn tell(&self, told: &mut Vec<Event>, place: &Place, kind: EventKind) {
         told.push(Event { time: self.time, place: *place, kind });
     }

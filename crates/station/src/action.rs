@@ -118,8 +118,12 @@ pub enum Action {
     Show(Show),
     /// `run until …`
     Run(Until),
-    /// An action of the vocabulary that is not built yet, as it was written.
-    NotBuilt(String),
+    /// `jog X + [for SECONDS]`: upwards or not
+    Jog(u8, bool, Option<f64>),
+    /// `step X + 0.01`, mm or degrees, with its sign
+    Step(u8, f64),
+    /// `home X`
+    Home(u8),
 }
 
 /// How a script writes the offset's cell.
@@ -195,7 +199,14 @@ impl fmt::Display for Action {
             Action::Fault(fault) => write!(f, "fault {fault}"),
             Action::Show(show) => write!(f, "show {show}"),
             Action::Run(until) => write!(f, "run {until}"),
-            Action::NotBuilt(line) => f.write_str(line),
+            Action::Jog(axis, up, seconds) => {
+                write!(f, "jog {} {}", char::from(*axis), if *up { '+' } else { '-' })?;
+                seconds.map_or(Ok(()), |seconds| write!(f, " for {seconds}"))
+            }
+            Action::Step(axis, way) => {
+                write!(f, "step {} {} {}", char::from(*axis), if *way < 0.0 { '-' } else { '+' }, way.abs())
+            }
+            Action::Home(axis) => write!(f, "home {}", char::from(*axis)),
         }
     }
 }

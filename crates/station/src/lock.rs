@@ -40,11 +40,28 @@ impl AxisLock {
         counted
     }
 
+    /// Where the axes stand while the control counts `counted`.
+    pub fn uncounted(&self, counted: &Point) -> Point {
+        let mut real = *counted;
+        if self.differs {
+            for axis in 0..AXES {
+                real[axis] -= self.ahead[axis];
+            }
+        }
+        real
+    }
+
     /// The counters of these axes are set to where the axes really are.
     pub fn settle(&mut self, axes: AxisSet) {
         for axis in axes.iter() {
             self.ahead[axis] = 0.0;
         }
+        self.differs = self.ahead.iter().any(|&mm| mm != 0.0);
+    }
+
+    /// An axis has been moved by hand without being counted.
+    pub fn moved_unseen(&mut self, axis: usize, way: f64) {
+        self.ahead[axis] -= way;
         self.differs = self.ahead.iter().any(|&mm| mm != 0.0);
     }
 

@@ -1,5 +1,6 @@
 //! The operator at work: actions on a session, refused with a reason where the control would refuse them.
 
+mod by_hand;
 mod table;
 mod typing;
 mod write;
@@ -109,7 +110,7 @@ impl<L: Shelf> Operator<L> {
         written: Option<&str>,
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<(), LibraryError> {
-        let outcome = match table::refusal(action, table::situation(&self.session)) {
+        let outcome = match table::refusal(action, table::situation(&self.session, self.mode())) {
             Some(why) => Err(why.to_owned()),
             None => self.act(action, tell)?,
         };
@@ -165,6 +166,7 @@ impl<L: Shelf> Operator<L> {
             Action::Mode(name) => return Ok(self.turn_mode(name)),
             Action::Mdi(blocks) => return Ok(self.type_blocks(blocks)),
             Action::CycleStart => return Ok(self.cycle_start()),
+            Action::Jog(..) | Action::Step(..) | Action::Home(_) => return self.move_by_hand(action, tell),
             Action::Show(show) => match self.display(show) {
                 Ok(value) => tell(&mut self.session, Said::Shown { what: show.to_string(), value }),
                 Err(why) => return Ok(Err(why)),
@@ -188,7 +190,7 @@ impl<L: Shelf> Operator<L> {
                 return Err(format!("no key {name} is known; the keys are {}", known.join(", ")));
             }
         };
-        if let Some(why) = table::refusal(&action, table::situation(&self.session)) {
+        if let Some(why) = table::refusal(&action, table::situation(&self.session, self.mode())) {
             return Err(why.to_owned());
         }
         match (action, cause) {

@@ -15,9 +15,6 @@ pub struct ScriptError {
     pub message: String,
 }
 
-/// Actions of the vocabulary that wait for their time.
-const NOT_BUILT: &[&str] = &["jog", "step", "home"];
-
 /// One action of a script.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ScriptLine {
@@ -110,9 +107,32 @@ pub fn read_action(line: &str) -> Result<Action, String> {
         ("show", [what, of @ ..]) => Action::Show(show(what, &of.join(" ")).ok_or_else(no_action)??),
         ("run", ["until", until @ ..]) => Action::Run(self::until(until).ok_or_else(no_action)??),
         ("run", ["for", seconds]) => Action::Run(Until::Seconds(finite(seconds)?.max(0.0))),
-        (first, [..]) if NOT_BUILT.contains(&first) => Action::NotBuilt(line.to_owned()),
+        ("jog", [axis, sign]) => Action::Jog(axis_letter(axis)?, is_up(sign)?, None),
+        ("jog", [axis, sign, "for", seconds]) => {
+            Action::Jog(axis_letter(axis)?, is_up(sign)?, Some(finite(seconds)?.max(0.0)))
+        }
+        ("step", [axis, sign, way]) => {
+            let (up, way) = (is_up(sign)?, finite(way)?.abs());
+            Action::Step(axis_letter(axis)?, if up { way } else { -way })
+        }
+        ("home", [axis]) => Action::Home(axis_letter(axis)?),
         _ => return Err(no_action()),
     })
+}
+
+fn axis_letter(text: &str) -> Result<u8, String> {
+    match text.as_bytes() {
+        [letter @ b'A'..=b'Z'] => Ok(*letter),
+        _ => Err(format!("`{text}` is no axis letter")),
+    }
+}
+
+fn is_up(sign: &str) -> Result<bool, String> {
+    match sign {
+        "+" => Ok(true),
+        "-" => Ok(false),
+        _ => Err(format!("`{sign}` is neither + nor -")),
+    }
 }
 
 fn override_switch(name: &str) -> Result<OverrideSwitch, String> {
@@ -240,7 +260,7 @@ mod tests {
                 (1, Action::Load("a.nc".into(), Some("O1".into()))),
                 (4, Action::Switch("block-delete".into(), Some(2), true)),
                 (5, Action::Run(Until::Line(7))),
-                (6, Action::NotBuilt("jog X + for 2".into())),
+                (6, Action::Jog(b'X', true, Some(2.0))),
             ]
         );
         let error = read_script("reset\nswich single-block on").expect_err("no such action");
@@ -272,6 +292,10 @@ mod tests {
             "fault limit X + at 12.5",
             "fault servo X",
             "fault power",
+            "jog X +",
+            "jog Z - for 2.5",
+            "step Y - 0.01",
+            "home X",
         ] {
             assert_eq!(read_action(line).expect(line).to_string(), line);
         }
@@ -286,6 +310,10 @@ mod tests {
             "variable 1 = nan",
             "fault fin late",
             "fault limit X at 3",
+            "jog X",
+            "jog X up",
+            "step X + far",
+            "home",
         ] {
             assert!(read_action(line).is_err(), "{line}");
         }

@@ -2,6 +2,7 @@
 
 mod awaiting;
 mod barriers;
+mod by_hand;
 mod execution;
 mod live;
 mod locks;
@@ -22,6 +23,7 @@ use crate::library::{Library, LibraryError};
 use crate::lock::AxisLock;
 use crate::switches::SessionSwitches;
 
+pub use by_hand::HandMove;
 pub use locks::Percents;
 pub use typed::TYPED;
 use typed::Typed;
@@ -63,6 +65,7 @@ pub struct Session<L> {
     /// Moves take their time.
     live: bool,
     under_way: Option<live::UnderWay>,
+    by_hand: Option<by_hand::ByHand>,
     /// From one setpoint to the next, s.
     servo_period: f64,
     /// No more time passes than to this one.
@@ -158,6 +161,7 @@ impl<L: Library> Session<L> {
             met: None,
             live: false,
             under_way: None,
+            by_hand: None,
             servo_period: machine.limits().servo_period,
             deadline: None,
             hold_waits: false,
@@ -253,7 +257,10 @@ impl<L: Library> Session<L> {
 
     /// Where the axes are, mm and degrees in machine coordinates.
     pub fn position(&self) -> Point {
-        self.setpoint().map_or(*self.machine.position(), |setpoint| setpoint.position)
+        match &self.by_hand {
+            Some(by_hand) => by_hand.setpoint().position,
+            None => self.setpoint().map_or(*self.machine.position(), |setpoint| setpoint.position),
+        }
     }
 
     /// Virtual time since power-on.

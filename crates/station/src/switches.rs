@@ -21,7 +21,7 @@ pub struct SessionSwitches {
     pub aux_lock: bool,
     /// Z does not move, its display runs.
     pub z_cancel: bool,
-    /// Moves by hand count into the program's coordinates. Without moves by hand it has nothing to do.
+    /// Moves by hand count into the program's coordinates. Off, the program runs beside its place by as much.
     pub manual_absolute: bool,
 }
 

@@ -50,7 +50,18 @@ fn button() -> impl Strategy<Value = Action> {
         4 => Just(Action::Reset),
         1 => Just(Action::EmergencyStop),
         2 => Just(Action::Release),
-        1 => Just(Action::NotBuilt("jog X + for 2".to_owned())),
+    ]
+}
+
+/// The buttons of the manual modes.
+fn by_hand() -> impl Strategy<Value = Action> {
+    let axis = select(b"XZQ".to_vec());
+    let seconds = prop::option::of(select(vec![0.0, 0.01, 0.5, 100.0]));
+    let way = select(vec![0.0, 0.001, -0.1, 1.0, -1.0, 0.0004, 1e9]);
+    prop_oneof![
+        (axis.clone(), any::<bool>(), seconds).prop_map(|(axis, up, seconds)| Action::Jog(axis, up, seconds)),
+        (axis.clone(), way).prop_map(|(axis, way)| Action::Step(axis, way)),
+        axis.prop_map(Action::Home),
     ]
 }
 
@@ -107,7 +118,8 @@ fn action() -> impl Strategy<Value = Action> {
         2 => program.prop_map(Action::Select),
         8 => button(),
         3 => write(),
-        2 => names(&["memory", "mdi", "tape", "jog", "none"]).prop_map(Action::Mode),
+        3 => names(&["memory", "mdi", "tape", "jog", "step", "handle", "rapid", "return", "none"]).prop_map(Action::Mode),
+        4 => by_hand(),
         2 => names(TYPED).prop_map(Action::Mdi),
         8 => until.prop_map(Action::Run),
         1 => show.prop_map(Action::Show),
@@ -143,10 +155,24 @@ impl Station {
                 watch.see(&event, session);
                 events.push(event);
             }
-            Said::Refused { .. } => *refused = true,
+            // An action that had to wait is refused in a later one.
+            Said::Refused { action: of, .. } => *refused |= of == action.to_string(),
             Said::Shown { .. } => {}
         };
+        let (from, dead) =
+            (operator.session.position(), operator.session.emergency_stop() || !operator.session.is_powered());
         operator.perform(action, &mut tell).expect("texts in memory can be read");
+        let may_move = match action {
+            // What is refused in it is an action that had to wait.
+            Action::Run(_) => !dead,
+            Action::Jog(..) | Action::Step(..) => !dead && !*refused,
+            // The axes come to stand.
+            Action::FeedHold | Action::Reset | Action::EmergencyStop | Action::PowerOff => !*refused,
+            _ => false,
+        };
+        let to = operator.session.position();
+        let moved = from.iter().zip(to).any(|(from, to)| (from - to).abs() > 1e-6);
+        assert!(may_move || !moved, "no motion without a cause: {action}, {from:?} to {to:?}");
     }
 
     fn script(&mut self, lines: &[&str]) {

@@ -124,12 +124,16 @@ fn mode(row: &mut Table) -> ModeRow {
         ("tape", ModeKind::Tape),
         ("mdi", ModeKind::Mdi),
         ("edit", ModeKind::Edit),
-        ("manual", ModeKind::Manual),
+        ("jog", ModeKind::Jog),
+        ("step", ModeKind::Step),
+        ("handle", ModeKind::Handle),
+        ("rapid", ModeKind::Rapid),
+        ("return", ModeKind::Return),
     ];
     row.require("kind");
     ModeRow {
         name: row.required_string("name"),
-        kind: row.choice("kind", KINDS).unwrap_or(ModeKind::Manual),
+        kind: row.choice("kind", KINDS).unwrap_or(ModeKind::Edit),
         text: row.required_string("text"),
         origin: origin(row),
     }

@@ -43,6 +43,24 @@ impl Interpreter {
         self.start_state = *self.reader.state;
     }
 
+    /// The axes have been moved by hand while no program was in its middle: they stand at `machine` (mm, degrees), and
+    /// those that were returned to their reference point by it have it now, and no position offset; where the
+    /// control has local origins, no shift of G52 or G92 either.
+    pub fn moved_by_hand(&mut self, machine: &Point, returned: AxisSet) {
+        let mut state = self.state_so_far(true);
+        let states = &self.reader.setting.control.station.states;
+        let shifts = states.iter().any(|row| row.item == StateItem::LocalSystem);
+        state.reference.established = state.reference.established.or(returned);
+        for axis in returned.iter() {
+            state.displacement[axis] = 0.0;
+            if shifts {
+                (state.local[axis], state.common_shift[axis]) = (0.0, 0.0);
+            }
+        }
+        self.go_on_from(state, machine);
+        self.started = false;
+    }
+
     /// The origin of the base work system, now and at every later power-on (counts).
     pub fn set_base_origin(&mut self, axis: usize, counts: f64) {
         if let (Some(now), Some(later)) = (self.reader.state.base_origin.get_mut(axis), self.base_origin.get_mut(axis))

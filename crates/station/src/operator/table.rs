@@ -15,24 +15,34 @@ pub(super) enum Situation {
     Emergency,
     /// An alarm stands.
     Alarm,
-    /// Nothing runs.
+    /// Nothing runs, in a mode in which CYCLE START begins something or programs are edited.
     Ready,
+    /// Nothing runs, in a manual mode.
+    Manual,
+    /// An axis is moved by hand.
+    Moving,
     /// A program runs.
     Running,
-    /// A program is stopped in the middle and can go on.
+    /// A program is held by FEED HOLD and can go on.
+    Held,
+    /// A program is stopped between blocks (M00, M01, SINGLE BLOCK) and can go on.
     Stopped,
 }
 
 /// The situation of a session.
-pub(super) fn situation<L: Library>(session: &Session<L>) -> Situation {
+pub(super) fn situation<L: Library>(session: &Session<L>, mode: &ModeRow) -> Situation {
     if !session.is_powered() {
         Situation::Off
     } else if session.emergency_stop() {
         Situation::Emergency
     } else if session.alarm().is_some() {
         Situation::Alarm
+    } else if session.is_moved_by_hand() {
+        Situation::Moving
     } else if !session.is_running() {
-        Situation::Ready
+        if is_manual(mode) { Situation::Manual } else { Situation::Ready }
+    } else if session.is_held() {
+        Situation::Held
     } else if session.is_stopped() {
         Situation::Stopped
     } else {
@@ -67,7 +77,9 @@ enum Kind {
     Fault,
     Show,
     Run,
-    NotBuilt,
+    Jog,
+    Step,
+    Home,
 }
 
 fn kind(action: &Action) -> Kind {
@@ -92,7 +104,9 @@ fn kind(action: &Action) -> Kind {
         Action::Fault(_) => Kind::Fault,
         Action::Show(_) => Kind::Show,
         Action::Run(_) => Kind::Run,
-        Action::NotBuilt(_) => Kind::NotBuilt,
+        Action::Jog(..) => Kind::Jog,
+        Action::Step(..) => Kind::Step,
+        Action::Home(_) => Kind::Home,
     }
 }
 
@@ -136,34 +150,49 @@ const RUNS: Answer = Some("a program is running");
 const STOPPED: Answer = Some("a program is stopped in the middle; let it run to its end or press RESET");
 const NOTHING: Answer = Some("no program is running");
 const STANDS: Answer = Some("the program has stopped already");
-const NOT_YET: Answer = Some("this action is not built yet");
+const MOVES: Answer = Some("an axis is moved by hand; let it come to stand first");
+const NO_START: Answer = Some("CYCLE START does nothing in a manual mode");
+const BY_HAND: Answer = Some("the axes are moved by hand in a manual mode only");
+
+/// How many situations there are.
+const SITUATIONS: usize = Situation::Stopped as usize + 1;
 
 /// Every kind of action in every situation.
 #[rustfmt::skip]
-const TABLE: &[(Kind, [Answer; 6])] = &[
-    //                     without   emergency  alarm        nothing      a program  it is
-    //                     power     stop       stands       runs         runs       stopped
-    (Kind::PowerOn,       [GO,       ON,        ON,          ON,          ON,        ON]),
-    (Kind::PowerOff,      [OFF,      GO,        GO,          GO,          GO,        GO]),
-    (Kind::Load,          [OFF,      GO,        GO,          GO,          RUNS,      STOPPED]),
-    (Kind::Select,        [OFF,      GO,        GO,          GO,          RUNS,      STOPPED]),
-    (Kind::Mode,          [GO,       GO,        GO,          GO,          RUNS,      GO]),
-    (Kind::Type,          [OFF,      GO,        GO,          GO,          RUNS,      STOPPED]),
-    (Kind::CycleStart,    [OFF,      PRESSED,   ALARM,       GO,          RUNS,      GO]),
-    (Kind::FeedHold,      [OFF,      PRESSED,   NOTHING,     NOTHING,     GO,        STANDS]),
-    (Kind::Reset,         [OFF,      PRESSED,   GO,          GO,          GO,        GO]),
-    (Kind::Key,           [OFF,      GO,        GO,          GO,          GO,        GO]),
-    (Kind::EmergencyStop, [OFF,      PRESSED,   GO,          GO,          GO,        GO]),
-    (Kind::Release,       [OFF,      GO,        NOT_PRESSED, NOT_PRESSED, NOT_PRESSED, NOT_PRESSED]),
-    (Kind::Turn,          [GO,       GO,        GO,          GO,          GO,        GO]),
-    (Kind::Offset,        [OFF,      GO,        GO,          GO,          GO,        GO]),
-    (Kind::Parameter,     [OFF,      GO,        GO,          GO,          RUNS,      STOPPED]),
-    (Kind::Variable,      [OFF,      GO,        GO,          GO,          GO,        GO]),
-    (Kind::Fault,         [OFF,      GO,        GO,          GO,          GO,        GO]),
-    (Kind::Show,          [OFF,      GO,        GO,          GO,          GO,        GO]),
-    (Kind::Run,           [GO,       GO,        GO,          GO,          GO,        GO]),
-    (Kind::NotBuilt,      [NOT_YET,  NOT_YET,   NOT_YET,     NOT_YET,     NOT_YET,   NOT_YET]),
+const TABLE: &[(Kind, [Answer; SITUATIONS])] = &[
+    //                     without   emergency  alarm        automatic    manual       axis moved   a program    held         stopped
+    //                     power     stop       stands       idle         idle         by hand      runs         (FEED HOLD)  (M00 …)
+    (Kind::PowerOn,       [GO,        ON,         ON,           ON,           ON,           ON,           ON,           ON,           ON]),
+    (Kind::PowerOff,      [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Load,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::Select,        [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::Mode,          [GO,        GO,         GO,           GO,           GO,           MOVES,        RUNS,         GO,           GO]),
+    (Kind::Type,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::CycleStart,    [OFF,       PRESSED,    ALARM,        GO,           NO_START,     MOVES,        RUNS,         GO,           GO]),
+    (Kind::FeedHold,      [OFF,       PRESSED,    NOTHING,      NOTHING,      NOTHING,      GO,           GO,           STANDS,       STANDS]),
+    (Kind::Reset,         [OFF,       PRESSED,    GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Key,           [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::EmergencyStop, [OFF,       PRESSED,    GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Release,       [OFF,       GO,         NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED]),
+    (Kind::Turn,          [GO,        GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Offset,        [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Parameter,     [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::Variable,      [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Fault,         [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Show,          [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Run,           [GO,        GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Jog,           [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::Step,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::Home,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
 ];
+
+/// True for a mode in which the axes are moved by hand.
+pub(super) fn is_manual(mode: &ModeRow) -> bool {
+    match mode.kind {
+        ModeKind::Memory | ModeKind::Tape | ModeKind::Mdi | ModeKind::Edit => false,
+        ModeKind::Jog | ModeKind::Step | ModeKind::Handle | ModeKind::Rapid | ModeKind::Return => true,
+    }
+}
 
 /// Why the control does not take the action now, if it does not.
 pub(super) fn refusal(action: &Action, situation: Situation) -> Answer {
@@ -188,7 +217,7 @@ pub(super) fn begins(mode: &ModeRow) -> Result<Begins, String> {
         ModeKind::Memory => Ok(Begins::Memory),
         ModeKind::Mdi => Ok(Begins::Typed),
         ModeKind::Tape => Ok(Begins::Tape),
-        ModeKind::Edit | ModeKind::Manual => Err(format!("CYCLE START does nothing in mode {}", mode.name)),
+        _ => Err(format!("CYCLE START does nothing in mode {}", mode.name)),
     }
 }
 
@@ -201,6 +230,6 @@ mod tests {
         for (index, (kind, _)) in TABLE.iter().enumerate() {
             assert_eq!(TABLE.iter().position(|(other, _)| other == kind), Some(index), "{kind:?}");
         }
-        assert_eq!(TABLE.len(), Kind::NotBuilt as usize + 1);
+        assert_eq!(TABLE.len(), Kind::Home as usize + 1);
     }
 }

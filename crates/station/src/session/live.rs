@@ -3,11 +3,12 @@
 //!
 //! Dwells and the machine's answers to codes pass as a whole; nothing of the operator's changes them.
 
-use base::{AXES, Point, Seconds};
+use base::{AXES, AxisSet, Point, Seconds};
 use machine::{Drives, Machine, StopCause};
-use motion::Setpoint;
+use motion::{Setpoint, Timed};
 use path::Shape;
 
+use super::by_hand::ByHand;
 use super::{Session, Step};
 use crate::library::Library;
 
@@ -47,18 +48,28 @@ impl<L: Library> Session<L> {
 
     /// Where the axes are and how fast, while a move is under way.
     pub fn setpoint(&self) -> Option<Setpoint> {
-        self.under_way.and_then(|_| self.motion.setpoint())
+        match &self.by_hand {
+            Some(by_hand) => Some(by_hand.setpoint()),
+            None => self
+                .under_way
+                .and_then(|_| self.motion.setpoint())
+                .map(|setpoint| Setpoint { position: self.lock.uncounted(&setpoint.position), ..setpoint }),
+        }
     }
 
     /// What is left of the move under way, mm and degrees.
     pub fn distance_to_go(&self) -> Point {
+        if let Some(by_hand) = &self.by_hand {
+            return by_hand.distance_to_go();
+        }
         let Some(setpoint) = self.setpoint() else { return [0.0; AXES] };
         let to = match &self.motion.upstream.current().shape {
             Shape::Rapid { to, .. } | Shape::Line { to, .. } => *to,
             Shape::Arc { arc, .. } => arc.to,
             _ => setpoint.position,
         };
-        std::array::from_fn(|axis| to[axis] - setpoint.position[axis])
+        let counted = self.lock.counted(&setpoint.position);
+        std::array::from_fn(|axis| to[axis] - counted[axis])
     }
 
     /// True while the axes move.
@@ -75,7 +86,9 @@ impl<L: Library> Session<L> {
 
     /// Time passes in which nothing happens.
     pub fn let_time_pass(&mut self, until: Seconds) {
-        if self.under_way.is_none() {
+        if let Some(by_hand) = &mut self.by_hand {
+            by_hand.stand(until.0 - self.machine.time().0);
+        } else if self.under_way.is_none() {
             let trip = self.next_trip();
             if trip <= until.0 {
                 self.machine.stand_until(Seconds(trip), &mut self.events);
@@ -87,7 +100,8 @@ impl<L: Library> Session<L> {
 
     /// The time since the move under way began.
     pub(super) fn elapsed(&self) -> f64 {
-        self.under_way.map_or(0.0, |under_way| under_way.elapsed)
+        let under_way = self.under_way.map(|under_way| under_way.elapsed);
+        under_way.or(self.by_hand.as_ref().map(ByHand::elapsed)).unwrap_or(0.0)
     }
 
     /// A move that takes its time begins; false if it is executed as a whole.
@@ -95,9 +109,16 @@ impl<L: Library> Session<L> {
         let shaped = self.motion.upstream.current();
         let place = shaped.place;
         let is_led = !shaped.until_signal || self.machine.awaits_skip();
-        let ends_by_itself = is_led && self.real_shape().is_none();
+        // Axes that were moved by hand without being counted make the same way, elsewhere.
+        let is_whole = self.lock.held.is_empty() && self.returned().is_empty() && !self.in_force.display_lock;
+        let real = self.real_shape();
+        let ends_by_itself = is_led && (is_whole || real.is_none());
         let is_known = !self.motion.is_joined() || self.motion.knows_next();
-        if !ends_by_itself || !is_known || self.machine.cannot_end(&self.motion.current()) {
+        let cannot_end = match &real {
+            Some(shaped) => self.machine.cannot_end(&Timed { shaped, ..self.motion.current() }),
+            None => self.machine.cannot_end(&self.motion.current()),
+        };
+        if !ends_by_itself || !is_known || cannot_end {
             self.motion.plan();
             return false;
         }
@@ -139,7 +160,7 @@ impl<L: Library> Session<L> {
             if ended || next > until {
                 return ended;
             }
-            if let Some(setpoint) = self.motion.setpoint() {
+            if let Some(setpoint) = self.setpoint() {
                 self.machine.follow(Seconds(next), &setpoint);
             }
             if looks {
@@ -186,7 +207,7 @@ impl<L: Library> Session<L> {
         if !self.motion.upstream.current().until_signal || self.under_way.is_none() {
             return;
         }
-        let at = self.motion.setpoint().map(|setpoint| setpoint.position);
+        let at = self.setpoint().map(|setpoint| setpoint.position);
         self.machine.skip_at(at);
         self.complete();
         self.machine.skip_at(None);
@@ -232,6 +253,9 @@ impl<L: Library> Session<L> {
 
     /// FEED HOLD: the axes come to stand, the rest of the move is kept. In tapping it waits for the end of the retract.
     pub fn feed_hold(&mut self) {
+        if self.by_hand.is_some() {
+            return self.stop_by_hand();
+        }
         if self.is_tapping() {
             self.hold_waits = true;
             return;
@@ -277,6 +301,7 @@ impl<L: Library> Session<L> {
     pub(super) fn break_off(&mut self) {
         self.hold_waits = false;
         self.tapping = false;
+        self.stop_by_hand();
         self.brake();
         let Some(UnderWay { elapsed }) = self.under_way.take() else { return self.motion.drop_rest() };
         let at = self.motion.setpoint().map(|setpoint| setpoint.position);
@@ -284,8 +309,11 @@ impl<L: Library> Session<L> {
         self.motion.end(elapsed);
         if let Some(at) = at {
             shaped.shape = shaped.shape.up_to(&at);
-            let timed = motion::Timed { shaped: &shaped, ..self.motion.current() };
             let length = self.motion.time(&shaped).length;
+            if self.lock.acts() {
+                shaped.shape = self.lock.real(&shaped.shape, self.machine.position(), AxisSet::NONE);
+            }
+            let timed = motion::Timed { shaped: &shaped, ..self.motion.current() };
             let timed = motion::Timed { length, ..timed };
             // What could not be made as a whole was refused before it began.
             let _ = self.machine.execute(&timed, &mut self.events);

@@ -65,6 +65,7 @@ impl<L: Library> Session<L> {
             }
         }
         self.motion.set_overrides(overrides);
+        self.pass_hand_speed();
     }
 
     /// The shape as the axes really make it; `None` if that is the counted one.

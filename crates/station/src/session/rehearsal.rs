@@ -239,6 +239,7 @@ impl<L: Library> Session<L> {
             met: Some(VecDeque::new()),
             live: false,
             under_way: None,
+            by_hand: None,
             servo_period: self.servo_period,
             deadline: None,
             hold_waits: false,

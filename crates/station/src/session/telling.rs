@@ -44,6 +44,9 @@ impl<L: Library> Session<L> {
         if self.look_for_trips() {
             return None;
         }
+        if self.by_hand.is_some() {
+            return if self.go_on_by_hand() { None } else { Some(Step::Idle) };
+        }
         if self.stopped {
             return Some(Step::Stopped);
         }

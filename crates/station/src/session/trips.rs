@@ -77,7 +77,7 @@ impl<L: Library> Session<L> {
 
     /// The overtravel switches, each servo period while the axes move.
     pub(super) fn look_at_switches(&mut self) {
-        let Some(setpoint) = self.motion.setpoint() else { return };
+        let Some(setpoint) = self.setpoint() else { return };
         let now = self.time();
         let onto = self.machine.look_at_switches(&setpoint.position, &setpoint.velocity, now, &mut self.events);
         if onto.is_some() && self.tripped.is_none() {

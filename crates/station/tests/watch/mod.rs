@@ -14,7 +14,8 @@ use syntax::Cursor;
 pub const EXACTNESS_MM: f64 = 1e-9;
 
 /// Alarms that stand in no block.
-const FROM_THE_PANEL: &[Condition] = &[Condition::EmergencyStop, Condition::MemoryFull, Condition::ProgramProtected];
+const FROM_THE_PANEL: &[Condition] =
+    &[Condition::TravelExceeded, Condition::EmergencyStop, Condition::MemoryFull, Condition::ProgramProtected];
 
 /// Times in a row that the same bytes may be asked for before it counts as standing still.
 const MOST_AGAIN: u32 = 100;
@@ -192,10 +193,11 @@ impl Watch {
             self.time = event.time.0;
         }
         // The start of a program is no block of it, and the operator's buttons need none.
-        let may_be_placeless =
-            matches!(event.kind, EventKind::Start(_) | EventKind::BlockDone | EventKind::Reset { .. })
-                || matches!(event.kind, EventKind::Stop(StopCause::FeedHold))
-                || matches!(event.kind, EventKind::Alarm(alarm) if FROM_THE_PANEL.contains(&alarm.condition));
+        let may_be_placeless = matches!(
+            event.kind,
+            EventKind::Start(_) | EventKind::BlockDone | EventKind::Reset { .. } | EventKind::Rapid { .. }
+        ) || matches!(event.kind, EventKind::Stop(StopCause::FeedHold))
+            || matches!(event.kind, EventKind::Alarm(alarm) if FROM_THE_PANEL.contains(&alarm.condition));
         let placeless = may_be_placeless && event.place.line == 0;
         if !placeless {
             self.check_place(event, session);

@@ -1,0 +1,214 @@
+//! An axis moved by hand: while its button is pressed, by an increment, or to its reference point.
+//!
+//! It keeps the axis' limits and the overrides, ends within the travel, and stands at once by FEED HOLD, RESET or
+//! emergency stop; what is left of it is dropped.
+
+use base::{AXES, AxisSet, Place, Point};
+use machine::{Machine, Refusal};
+use meaning::RapidKind;
+use motion::{Setpoint, Stroke, Timed};
+use path::{Shape, Shaped};
+
+use super::Session;
+use crate::library::Library;
+
+/// How an axis is moved by hand.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum HandMove {
+    /// Its button is pressed: upwards or not, at the rapid rate or the jog speed.
+    Button {
+        /// Towards higher coordinates.
+        up: bool,
+        /// At the rapid rate.
+        rapid: bool,
+    },
+    /// By so much, mm or degrees, at the jog speed.
+    By(f64),
+    /// To the first reference point, at the rapid rate.
+    Home,
+}
+
+/// A move by hand under way.
+#[derive(Clone, Debug)]
+pub(super) struct ByHand {
+    axis: usize,
+    how: HandMove,
+    from: Point,
+    to: Point,
+    stroke: Stroke,
+    elapsed: f64,
+    /// Why it ends before the place that was asked for.
+    border: Option<Refusal>,
+}
+
+/// A pressed button leads beyond the border of the travel by this, mm or degrees.
+const BEYOND: f64 = 0.001;
+/// A look whether the axis still moves, s.
+const STRIDE_S: f64 = 1.0;
+
+impl ByHand {
+    pub fn elapsed(&self) -> f64 {
+        self.elapsed
+    }
+
+    /// Where the axes are, and how fast.
+    pub fn setpoint(&self) -> Setpoint {
+        let mut setpoint = Setpoint { position: self.to, velocity: [0.0; AXES] };
+        if !self.stroke.has_arrived() {
+            let (here, axis) = (self.stroke.here(), self.axis);
+            let sign = (self.to[axis] - self.from[axis]).signum();
+            setpoint.position[axis] = self.from[axis] + sign * here.s;
+            setpoint.velocity[axis] = sign * here.speed;
+        }
+        setpoint
+    }
+
+    /// To the end of an increment or the reference point; a pressed button has no end.
+    pub fn distance_to_go(&self) -> Point {
+        match self.how {
+            HandMove::Button { .. } => [0.0; AXES],
+            _ => {
+                let position = self.setpoint().position;
+                std::array::from_fn(|axis| self.to[axis] - position[axis])
+            }
+        }
+    }
+
+    /// Time passes while the axis stands.
+    pub fn stand(&mut self, elapsed: f64) {
+        self.elapsed = self.elapsed.max(elapsed);
+    }
+}
+
+impl<L: Library> Session<L> {
+    /// An axis begins to move by hand.
+    ///
+    /// # Errors
+    /// Why it cannot, in words.
+    pub fn begin_by_hand(&mut self, axis: usize, how: HandMove) -> Result<(), String> {
+        let letter = self.configuration.machine.axes.get(axis).map_or(b'?', |axis| axis.letter);
+        if self.switches.machine_lock || (self.switches.z_cancel && letter == b'Z') {
+            return Err(format!("a lock switch holds axis {}", char::from(letter)));
+        }
+        let from = *self.machine.position();
+        let travel = self.configuration.machine.travel();
+        let mut to = from;
+        to[axis] = match how {
+            HandMove::Button { up: true, .. } => from[axis].max(travel.high[axis]) + BEYOND,
+            HandMove::Button { .. } => from[axis].min(travel.low[axis]) - BEYOND,
+            HandMove::By(way) => ((from[axis] + way) * 1e6).round() / 1e6,
+            HandMove::Home => {
+                let axes = &self.configuration.machine.axes;
+                axes.get(axis).and_then(|axis| axis.reference_points.first()).copied().unwrap_or(0.0)
+            }
+        };
+        let shape = Shape::Rapid { from, to, kind: RapidKind::Checked };
+        let shaped = self.hand_shape(shape);
+        let timed = self.motion.time(&shaped);
+        let (shape, border) = self.machine.free_part(&timed);
+        if let Shape::Rapid { to: end, .. } = shape {
+            to = end;
+        }
+        self.forget_rehearsal();
+        let limits = self.configuration.machine.limits();
+        let (acceleration, jerk) = (limits.axes[axis].acceleration, limits.jerk(axis));
+        let stroke = Stroke::new((to[axis] - from[axis]).abs(), self.hand_speed(axis, how), acceleration, jerk);
+        self.by_hand = Some(ByHand { axis, how, from, to, stroke, elapsed: 0.0, border });
+        if stroke.has_arrived() {
+            self.end_by_hand();
+        }
+        Ok(())
+    }
+
+    /// True while an axis is moved by hand.
+    pub fn is_moved_by_hand(&self) -> bool {
+        self.by_hand.is_some()
+    }
+
+    /// What a move by hand is to the machine.
+    fn hand_shape(&self, shape: Shape) -> Shaped {
+        Shaped { shape, place: Place::default(), certain: true, stroke_check: true, ..Shaped::default() }
+    }
+
+    /// mm/s: the rapid rate or the jog speed, as the override switches have it.
+    fn hand_speed(&self, axis: usize, how: HandMove) -> f64 {
+        let limits = self.configuration.machine.limits().axes[axis];
+        match how {
+            HandMove::Home | HandMove::Button { rapid: true, .. } => self.motion.overrides().rapid(limits.rapid),
+            _ => {
+                let jog = self.interpreter().fitting().parameter(self.configuration.control.station.jog_speed);
+                (jog / 60.0 * f64::from(self.percents.feed) / 100.0).min(limits.max_feed)
+            }
+        }
+    }
+
+    /// An override switch has been turned.
+    pub(super) fn pass_hand_speed(&mut self) {
+        if let Some(&ByHand { axis, how, .. }) = self.by_hand.as_ref() {
+            let speed = self.hand_speed(axis, how);
+            if let Some(by_hand) = &mut self.by_hand {
+                by_hand.stroke.set_speed(speed);
+            }
+        }
+    }
+
+    /// The move by hand goes on to its end or the end of the time; false if nothing more comes of it.
+    pub(super) fn go_on_by_hand(&mut self) -> bool {
+        loop {
+            let now = self.time().0;
+            let until = self.deadline.map_or(now + STRIDE_S, |deadline| deadline.0.min(now + STRIDE_S));
+            let Some(by_hand) = &mut self.by_hand else { return true };
+            let seconds = (until - now).max(0.0);
+            let left = by_hand.stroke.advance(seconds);
+            by_hand.elapsed += seconds - left;
+            if by_hand.stroke.has_arrived() {
+                self.end_by_hand();
+                return true;
+            }
+            if self.is_time_up() || self.by_hand.as_ref().is_some_and(|by_hand| by_hand.stroke.leg().is_none()) {
+                return false;
+            }
+        }
+    }
+
+    /// The axis comes to stand as fast as it can, and what is left of its move is dropped.
+    pub fn stop_by_hand(&mut self) {
+        let Some(by_hand) = &mut self.by_hand else { return };
+        by_hand.stroke.hold(true);
+        while by_hand.stroke.leg().is_some() {
+            by_hand.elapsed += STRIDE_S - by_hand.stroke.advance(STRIDE_S);
+        }
+        self.end_by_hand();
+    }
+
+    /// The axis stands: what has been moved is told and counted.
+    fn end_by_hand(&mut self) {
+        let Some(by_hand) = self.by_hand.take() else { return };
+        let (arrived, axis) = (by_hand.stroke.has_arrived(), by_hand.axis);
+        let mut to = by_hand.setpoint().position;
+        to[axis] = (to[axis] * 1e6).round() / 1e6;
+        let way = to[axis] - by_hand.from[axis];
+        let shaped = self.hand_shape(Shape::Rapid { from: by_hand.from, to, kind: RapidKind::Checked });
+        let duration = base::Seconds(by_hand.elapsed);
+        let timed = Timed { shaped: &shaped, duration, length: way.abs(), feed: 0.0, pace: motion::Pace::default() };
+        if way != 0.0 {
+            // The move has been cut to what the machine takes.
+            let _ = self.machine.execute(&timed, &mut self.events);
+        } else {
+            let until = self.machine.time() + duration;
+            self.machine.stand_until(until, &mut self.events);
+        }
+        let home = arrived && by_hand.border.is_none() && by_hand.how == HandMove::Home;
+        let returned = if home { AxisSet::only(axis) } else { AxisSet::NONE };
+        self.lock.settle(returned);
+        if !home && !self.switches.manual_absolute {
+            self.lock.moved_unseen(axis, way);
+        }
+        let counted = self.counted_position();
+        self.motion.upstream.stand_at(&counted);
+        self.interpreter_mut().moved_by_hand(&counted, returned);
+        if let (true, Some(refusal)) = (arrived, by_hand.border) {
+            self.raise(refusal.alarm);
+        }
+    }
+}
