@@ -66,7 +66,7 @@ PROGRAMS = {
     "mixed": mixed,
 }
 # Parts that grow with their blocks: more of them do not lie within the numbers that the control can hold.
-LARGEST = {"contours": 1_000_000}
+LARGEST = {"contours": 1_000_000, "drill": 2_000_000}
 
 
 @dataclass

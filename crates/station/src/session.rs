@@ -3,6 +3,7 @@
 mod awaiting;
 mod barriers;
 mod by_hand;
+mod dwelling;
 mod execution;
 mod live;
 mod locks;
@@ -66,6 +67,8 @@ pub struct Session<L> {
     live: bool,
     under_way: Option<live::UnderWay>,
     by_hand: Option<by_hand::ByHand>,
+    /// A dwell is under way: since when, s, stops on the way not counted in.
+    dwelling: Option<f64>,
     /// From one setpoint to the next, s.
     servo_period: f64,
     /// No more time passes than to this one.
@@ -162,6 +165,7 @@ impl<L: Library> Session<L> {
             live: false,
             under_way: None,
             by_hand: None,
+            dwelling: None,
             servo_period: machine.limits().servo_period,
             deadline: None,
             hold_waits: false,
@@ -404,7 +408,8 @@ impl<L: Library> Session<L> {
     /// The place of a block of which nothing has been executed yet, told once for each; `None` if something else
     /// comes first.
     pub fn block_begins(&mut self) -> Option<Place> {
-        let busy = !self.has_told_all() || self.under_way.is_some() || self.closing.is_some();
+        let busy =
+            !self.has_told_all() || self.under_way.is_some() || self.dwelling.is_some() || self.closing.is_some();
         if busy || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
             return None;
         }

@@ -98,6 +98,7 @@ impl<L: Library> Session<L> {
     fn prepare_shape(&mut self) -> bool {
         let shape = &self.motion.upstream.current().shape;
         let (moves, measures) = (shape.is_move(), self.motion.upstream.current().until_signal);
+        let dwells = matches!(shape, Shape::Dwell(_));
         match shape {
             _ if moves => {
                 self.plan();
@@ -108,7 +109,7 @@ impl<L: Library> Session<L> {
             Shape::Code(_) | Shape::Dwell(_) | Shape::Await(_) => self.rest(),
             _ => {}
         }
-        moves && self.live && self.begin_move()
+        self.live && (moves && self.begin_move() || dwells && self.deadline.is_some() && self.begin_dwell())
     }
 
     fn execute_shape(&mut self) -> Result<(), Refusal> {

@@ -1,7 +1,7 @@
 //! Time as it passes at the machine: a move is under way from its first setpoint to its last, and the operator can
 //! step in anywhere between.
 //!
-//! Dwells and the machine's answers to codes pass as a whole; nothing of the operator's changes them.
+//! Dwells (`dwelling.rs`) and the answers to codes (`awaiting.rs`) take their time too.
 
 use base::{AXES, AxisSet, Point, Seconds};
 use machine::{Drives, Machine, StopCause};
@@ -23,6 +23,13 @@ pub(super) struct UnderWay {
 const ON_THE_DOT: f64 = 1e-6;
 /// A look whether the axes still move, s.
 const STRIDE_S: f64 = 1.0;
+
+impl UnderWay {
+    /// Time passes while the axes stand on the way.
+    pub fn stand(&mut self, longer: f64) {
+        self.elapsed += longer;
+    }
+}
 
 impl<L: Library> Session<L> {
     /// Moves take their time, and can be broken into: what an operator needs.
@@ -88,20 +95,20 @@ impl<L: Library> Session<L> {
     pub fn let_time_pass(&mut self, until: Seconds) {
         if let Some(by_hand) = &mut self.by_hand {
             by_hand.stand(until.0 - self.machine.time().0);
-        } else if self.under_way.is_none() {
+        } else {
             let trip = self.next_trip();
             if trip <= until.0 {
-                self.machine.stand_until(Seconds(trip), &mut self.events);
+                self.stand(Seconds(trip));
                 self.look_for_trips();
             }
-            self.machine.stand_until(until, &mut self.events);
+            self.stand(until);
         }
     }
 
     /// The time since the move under way began.
     pub(super) fn elapsed(&self) -> f64 {
         let under_way = self.under_way.map(|under_way| under_way.elapsed);
-        under_way.or(self.by_hand.as_ref().map(ByHand::elapsed)).unwrap_or(0.0)
+        under_way.or(self.dwelling).or(self.by_hand.as_ref().map(ByHand::elapsed)).unwrap_or(0.0)
     }
 
     /// A move that takes its time begins; false if it is executed as a whole.
@@ -302,6 +309,7 @@ impl<L: Library> Session<L> {
         self.hold_waits = false;
         self.tapping = false;
         self.stop_by_hand();
+        self.break_off_dwell();
         self.brake();
         let Some(UnderWay { elapsed }) = self.under_way.take() else { return self.motion.drop_rest() };
         let at = self.motion.setpoint().map(|setpoint| setpoint.position);

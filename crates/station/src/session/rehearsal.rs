@@ -240,6 +240,7 @@ impl<L: Library> Session<L> {
             live: false,
             under_way: None,
             by_hand: None,
+            dwelling: None,
             servo_period: self.servo_period,
             deadline: None,
             hold_waits: false,

@@ -93,7 +93,7 @@ impl<L: Library> Session<L> {
         if !self.is_running() || self.stopped {
             return;
         }
-        let under_way = self.under_way.is_some() || self.is_moving();
+        let under_way = self.under_way.is_some() || self.dwelling.is_some() || self.is_moving();
         if under_way && self.interpreter().executing_state().interrupt.is_some() {
             self.break_off();
         }

@@ -57,6 +57,9 @@ impl<L: Library> Session<L> {
             let still = !self.go_on_closing() && self.has_told_all() && self.next_trip() > self.time().0;
             return still.then_some(Step::Idle);
         }
+        if self.dwelling.is_some() {
+            return if self.go_on_dwelling() { None } else { Some(Step::Idle) };
+        }
         if self.under_way.is_some() {
             return if self.go_on_moving() { None } else { Some(Step::Idle) };
         }
