@@ -204,7 +204,14 @@ Axes are moved by hand in the manual modes, each button in its own:
 FEED HOLD, RESET and EMERGENCY STOP stop the axis as fast as it can; what is left of its way is dropped. At the border of its travel it
 stands and the alarm says so; RESET, then move back. MACHINE LOCK (and Z-AXIS CANCEL for Z) keep it from moving by hand at all.
 With MANUAL ABSOLUTE on, what was moved by hand counts into the program's coordinates; off, the program runs beside its place by as
-much, until the axis is returned to its reference point, EMERGENCY STOP, or power-on."""
+much, until the axis is returned to its reference point, EMERGENCY STOP, or power-on.
+
+By itself `operate` lets time pass only with `run`, and as fast as it can. With `--realtime` time passes by the clock, a servo period
+at a time. `cyclestart operate - --realtime` is a panel: each line on standard input acts when it comes, `--displays 60` prints position,
+state, feed and modal codes 60 times a second. A line that is no action, or names a file that cannot be read, is refused and changes
+nothing. `emergency-stop` does not wait for a `run` before it; what stands between the two is refused. At its end the command says how
+late its periods came. A computer that stops for more than half a second does not make up for it.
+The time in which axes brake after FEED HOLD, RESET or EMERGENCY STOP passes as a whole."""
 
 
 def operating(controls: list[Control]) -> str:

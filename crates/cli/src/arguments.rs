@@ -234,6 +234,12 @@ pub struct OperateArguments {
     /// The machine's answers to codes are events too
     #[arg(long)]
     pub io: bool,
+    /// Time passes by the clock; lines on standard input act as they come
+    #[arg(long)]
+    pub realtime: bool,
+    /// With --realtime: print the displays (position, state, feed, modal) so many times a second
+    #[arg(long, value_name = "HZ", requires = "realtime", value_parser = frequency)]
+    pub displays: Option<f64>,
     /// The control and its set-up.
     #[command(flatten)]
     pub setting: SettingArguments,
@@ -428,4 +434,12 @@ pub struct ControlsArguments {
     /// Take the controls' tables from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub controls: Option<PathBuf>,
+}
+
+/// So many times a second.
+fn frequency(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(hz) if hz > 0.0 && hz <= 1000.0 => Ok(hz),
+        _ => Err("a number above 0, at most 1000".to_owned()),
+    }
 }

@@ -24,7 +24,9 @@ pub use display::Value;
 pub use fault::Fault;
 pub use library::{Library, LibraryError, Shelf, Wanted};
 pub use operator::{Operator, Said};
-pub use script::{ScriptError, ScriptLine, read_action, read_script, split_offset, split_parameter, split_switch};
+pub use script::{
+    ScriptError, ScriptLine, read_action, read_script, split_offset, split_parameter, split_switch, without_comment,
+};
 pub use session::{AfterAlarm, HandMove, Percents, Session, Step, TYPED};
 pub use setup::{OffsetColumn, Setup, read_setup};
 pub use switches::SessionSwitches;

@@ -1,24 +1,25 @@
 //! The operator at work: actions on a session, refused with a reason where the control would refuse them.
 
 mod by_hand;
+mod lasting;
 mod table;
 mod typing;
 mod write;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use base::{Condition, Seconds, SourceId};
+use base::{Condition, SourceId};
 use dialect::{FileNames, Key, ModeRow, VariableMeaning};
-use machine::{Event, EventKind, ResetCause};
+use machine::{Event, ResetCause};
 use syntax::Cursor;
 
-use crate::action::{Action, Until};
+use crate::action::Action;
 use crate::catalogue::programs_in;
 use crate::display::Value;
 use crate::fault::Fault;
 use crate::library::{Library, LibraryError, Shelf, Wanted};
 use crate::memory;
-use crate::session::{Session, Step};
+use crate::session::Session;
 use table::Begins;
 
 /// What an action brings to light.
@@ -65,6 +66,8 @@ pub struct Operator<L> {
     selected: Option<String>,
     /// Actions taken while the axes moved, which act when they stand at the end of a move.
     waiting: VecDeque<Action>,
+    /// The action that has begun and not ended.
+    lasting: Option<lasting::Lasting>,
 }
 
 impl<L: Library> Operator<L> {
@@ -85,7 +88,14 @@ impl<L: Shelf> Operator<L> {
     pub fn new(mut session: Session<L>) -> Operator<L> {
         session.set_repeats_main(true);
         session.run_live();
-        Operator { session, mode: 0, programs: BTreeMap::new(), selected: None, waiting: VecDeque::new() }
+        Operator {
+            session,
+            mode: 0,
+            programs: BTreeMap::new(),
+            selected: None,
+            waiting: VecDeque::new(),
+            lasting: None,
+        }
     }
 
     /// Performs an action. What happens is handed to `tell`.
@@ -110,6 +120,23 @@ impl<L: Shelf> Operator<L> {
         written: Option<&str>,
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<(), LibraryError> {
+        self.begin(action, written, tell)?;
+        if self.is_busy() {
+            self.go_on(None, tell)?;
+        }
+        Ok(())
+    }
+
+    /// Begins an action; one that lasts goes on with [`Operator::go_on`].
+    ///
+    /// # Errors
+    /// A text could not be read.
+    pub fn begin(
+        &mut self,
+        action: &Action,
+        written: Option<&str>,
+        tell: &mut dyn FnMut(&mut Session<L>, Said),
+    ) -> Result<(), LibraryError> {
         let outcome = match table::refusal(action, table::situation(&self.session, self.mode())) {
             Some(why) => Err(why.to_owned()),
             None => self.act(action, tell)?,
@@ -118,6 +145,11 @@ impl<L: Shelf> Operator<L> {
             let action = written.map_or_else(|| action.to_string(), str::to_owned);
             tell(&mut self.session, Said::Refused { action, why });
         }
+        if self.is_busy() { Ok(()) } else { self.settle(tell) }
+    }
+
+    /// What an action has brought about is told, and what waited for it acts.
+    fn settle(&mut self, tell: &mut dyn FnMut(&mut Session<L>, Said)) -> Result<(), LibraryError> {
         if !self.session.is_running() && table::begins(self.mode()) != Ok(Begins::Typed) {
             self.session.come_back();
         }
@@ -158,7 +190,7 @@ impl<L: Shelf> Operator<L> {
             Action::Load(file, name) => self.load(file, name.as_deref())?,
             Action::Run(until) => {
                 self.session.begin_rounds();
-                self.run(until, tell)?;
+                self.last(until, false);
             }
             Action::Fault(fault) => return Ok(self.break_down(*fault)),
             Action::Key(name) => return Ok(self.press_key(name)),
@@ -166,7 +198,7 @@ impl<L: Shelf> Operator<L> {
             Action::Mode(name) => return Ok(self.turn_mode(name)),
             Action::Mdi(blocks) => return Ok(self.type_blocks(blocks)),
             Action::CycleStart => return Ok(self.cycle_start()),
-            Action::Jog(..) | Action::Step(..) | Action::Home(_) => return self.move_by_hand(action, tell),
+            Action::Jog(..) | Action::Step(..) | Action::Home(_) => return Ok(self.move_by_hand(action)),
             Action::Show(show) => match self.display(show) {
                 Ok(value) => tell(&mut self.session, Said::Shown { what: show.to_string(), value }),
                 Err(why) => return Ok(Err(why)),
@@ -373,47 +405,6 @@ impl<L: Shelf> Operator<L> {
             }
         }
         Ok(())
-    }
-
-    fn run(&mut self, until: &Until, tell: &mut dyn FnMut(&mut Session<L>, Said)) -> Result<(), LibraryError> {
-        let end = match until {
-            Until::Seconds(seconds) => Some(self.session.time() + Seconds(*seconds)),
-            _ => None,
-        };
-        loop {
-            self.take_waiting(tell)?;
-            if let Until::Line(line) = until
-                && self.session.line_begins().is_some_and(|place| place.line == *line)
-            {
-                return Ok(());
-            }
-            let step = match end {
-                Some(end) => self.session.next_until(end),
-                None => Some(self.session.next()),
-            };
-            let event = match step {
-                Some(Step::Event(event)) => event,
-                Some(Step::Failed(error)) => return Err(error),
-                // It would wait for ever: nobody presses CYCLE START while this action lasts.
-                Some(Step::Stopped | Step::Idle) | None => {
-                    if let Some(end) = end {
-                        self.session.let_time_pass(end);
-                    }
-                    return Ok(());
-                }
-            };
-            tell(&mut self.session, Said::Event(event));
-            let done = match (until, event.kind) {
-                (Until::Stop, EventKind::Stop(_))
-                | (Until::Alarm, EventKind::Alarm(_))
-                // What its end brings about is told with it.
-                | (Until::End, EventKind::End { .. }) => true,
-                _ => false,
-            };
-            if done {
-                return Ok(());
-            }
-        }
     }
 }
 

@@ -43,7 +43,7 @@ pub fn read_script(text: &str) -> Result<Vec<ScriptLine>, ScriptError> {
 }
 
 /// The line up to its comment. In a typed block `#` and a digit, `[` or another `#` is a macro variable.
-fn without_comment(line: &str) -> &str {
+pub fn without_comment(line: &str) -> &str {
     let typed = line.trim_start().starts_with("mdi ");
     let comment = line.char_indices().find(|&(at, character)| {
         let variable =

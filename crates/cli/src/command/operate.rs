@@ -6,7 +6,7 @@ use std::io::Read;
 use base::Condition;
 use machine::EventKind;
 use report::{Format, JsonLine, Tracer, render};
-use station::{Operator, Said, Session, Value, read_script};
+use station::{LibraryError, Operator, Said, Session, Value, read_script};
 
 use crate::arguments::OperateArguments;
 use crate::failure::Failure;
@@ -14,19 +14,37 @@ use crate::output::{Output, colour_err, say};
 use crate::setting;
 use crate::show_alarm::{show_alarm, show_typed_alarm};
 use crate::texts::{Texts, folder_of};
+use realtime::Hands;
+
+mod realtime;
+
+/// What a script's performance writes, and to where.
+struct Performance<'a> {
+    name: &'a str,
+    tracer: Tracer<'a>,
+    output: Output,
+}
+
+impl Performance<'_> {
+    fn write(&mut self, said: &Said, session: &mut Session<Texts>) {
+        write(said, session, &mut self.tracer, &mut self.output.buffer);
+    }
+}
+
+/// The operator does something; what comes of it is written.
+fn perform<T>(
+    operator: &mut Operator<Texts>,
+    performance: &mut Performance<'_>,
+    does: impl FnOnce(&mut Operator<Texts>, &mut dyn FnMut(&mut Session<Texts>, Said)) -> Result<T, LibraryError>,
+) -> Result<T, String> {
+    does(operator, &mut |session, said| performance.write(&said, session)).map_err(|error| error.to_string())
+}
 
 pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     let name = &arguments.script;
-    let cannot = |error| Failure::call(format!("cannot read {name}: {error}"));
-    let text = if name == "-" {
-        let mut text = String::new();
-        std::io::stdin().read_to_string(&mut text).map_err(cannot)?;
-        text
-    } else {
-        fs::read_to_string(name).map_err(cannot)?
-    };
-    let script =
-        read_script(&text).map_err(|error| Failure::call(format!("{name}:{}: {}", error.line, error.message)))?;
+    // By the clock, lines on standard input act as they come.
+    let live = arguments.realtime && name == "-";
+    let script = if live { Vec::new() } else { script(name)? };
     let configuration = setting::configuration(&arguments.setting)?;
     let control = configuration.control.clone();
     let machine = configuration.machine.clone();
@@ -43,12 +61,17 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     session.interpreter_mut().tell_variables(true);
     session.tell_signals(arguments.io);
     let mut operator = Operator::new(session);
-    let mut output = Output::new();
+    let mut performance = Performance { name, tracer, output: Output::new() };
+    if arguments.realtime {
+        let hands = if live { Hands::Live } else { Hands::Script(script) };
+        realtime::run(&mut operator, hands, &mut performance, arguments.displays)?;
+        return Ok(operator.session.alarm().is_none());
+    }
     let mut failed = None;
     for station::ScriptLine { line, written, action } in &script {
         let mut tell = |session: &mut Session<Texts>, said: Said| {
-            write(&said, session, &mut tracer, &mut output.buffer);
-            if let Err(failure) = output.pass() {
+            performance.write(&said, session);
+            if let Err(failure) = performance.output.pass() {
                 failed.get_or_insert(failure);
             }
         };
@@ -58,8 +81,21 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
             return Err(failure);
         }
     }
-    output.flush()?;
+    performance.output.flush()?;
     Ok(operator.session.alarm().is_none())
+}
+
+/// Reads a script as a whole.
+fn script(name: &str) -> Result<Vec<station::ScriptLine>, Failure> {
+    let cannot = |error| Failure::call(format!("cannot read {name}: {error}"));
+    let text = if name == "-" {
+        let mut text = String::new();
+        std::io::stdin().read_to_string(&mut text).map_err(cannot)?;
+        text
+    } else {
+        fs::read_to_string(name).map_err(cannot)?
+    };
+    read_script(&text).map_err(|error| Failure::call(format!("{name}:{}: {}", error.line, error.message)))
 }
 
 fn write(said: &Said, session: &mut Session<Texts>, tracer: &mut Tracer, out: &mut Vec<u8>) {

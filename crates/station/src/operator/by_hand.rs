@@ -2,45 +2,30 @@
 
 use dialect::ModeKind;
 
-use super::{Operator, Said};
+use super::Operator;
 use crate::action::{Action, Until};
-use crate::library::{LibraryError, Shelf};
+use crate::library::Shelf;
 use crate::memory;
-use crate::session::{HandMove, Session};
+use crate::session::HandMove;
 
 /// The increments of STEP, mm or degrees.
 const INCREMENTS: [f64; 4] = [0.001, 0.01, 0.1, 1.0];
 
 impl<L: Shelf> Operator<L> {
-    /// Moves an axis as the action says; the inner error is why not.
+    /// Moves an axis as the action says, or says why not.
     ///
     /// A button pressed for a time and an increment last until the axis stands. A button without a time stays pressed,
     /// and a return to the reference point goes on by itself: time passes for them by `run`.
-    pub(super) fn move_by_hand(
-        &mut self,
-        action: &Action,
-        tell: &mut dyn FnMut(&mut Session<L>, Said),
-    ) -> Result<Result<(), String>, LibraryError> {
-        let (letter, how) = match self.hand_move(action) {
-            Ok(found) => found,
-            Err(why) => return Ok(Err(why)),
-        };
-        let axis = match memory::axis_of(&self.session.configuration().machine, letter) {
-            Ok(axis) => axis,
-            Err(error) => return Ok(Err(error.0)),
-        };
-        if let Err(why) = self.session.begin_by_hand(axis, how) {
-            return Ok(Err(why));
-        }
+    pub(super) fn move_by_hand(&mut self, action: &Action) -> Result<(), String> {
+        let (letter, how) = self.hand_move(action)?;
+        let axis = memory::axis_of(&self.session.configuration().machine, letter).map_err(|error| error.0)?;
+        self.session.begin_by_hand(axis, how)?;
         match action {
-            Action::Jog(_, _, Some(seconds)) => {
-                self.run(&Until::Seconds(*seconds), tell)?;
-                self.session.stop_by_hand();
-            }
-            Action::Step(..) => self.run(&Until::Idle, tell)?,
+            Action::Jog(_, _, Some(seconds)) => self.last(&Until::Seconds(*seconds), true),
+            Action::Step(..) => self.last(&Until::Idle, false),
             _ => {}
         }
-        Ok(Ok(()))
+        Ok(())
     }
 
     /// What the action does in the mode in which the station stands.

@@ -204,6 +204,11 @@ impl<L: Library> Session<L> {
         self.machine.drive_in(increment);
     }
 
+    /// From one setpoint to the next, s.
+    pub fn servo_period(&self) -> f64 {
+        self.servo_period
+    }
+
     /// What the machine's drives have been sent.
     pub fn drives(&self) -> Option<&Drives> {
         self.machine.drives()
