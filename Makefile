@@ -56,6 +56,8 @@ bench: fast ## measure: speed beside a peer, memory; prints command, sample, fig
 	python3 benches/linuxcnc_times.py
 	python3 benches/planner.py
 	python3 benches/limits.py 1000
+	python3 benches/optimum.py
+	python3 benches/contours.py 100000
 	python3 benches/realtime.py
 
 fuzz: cargo ## throw random programs at the reader and at the whole interpreter, FUZZ_SECONDS=60 each
