@@ -210,8 +210,7 @@ By itself `operate` lets time pass only with `run`, and as fast as it can. With 
 at a time. `cyclestart operate - --realtime` is a panel: each line on standard input acts when it comes, `--displays 60` prints position,
 state, feed and modal codes 60 times a second. A line that is no action, or names a file that cannot be read, is refused and changes
 nothing. `emergency-stop` does not wait for a `run` before it; what stands between the two is refused. At its end the command says how
-late its periods came. A computer that stops for more than half a second does not make up for it.
-The time in which axes brake after FEED HOLD, RESET or EMERGENCY STOP passes as a whole."""
+late its periods came. A computer that stops for more than half a second does not make up for it."""
 
 
 def operating(controls: list[Control]) -> str:

@@ -21,8 +21,8 @@ fn operate(folder: &tempfile::TempDir, arguments: &[&str]) -> Command {
 #[test]
 fn the_clock_changes_nothing_but_when() {
     let folder = folder(PART);
-    let script = "load part.nc\nselect O1\ncycle-start\nrun for 0.1\nfeed-hold\nrun for 0.1\ncycle-start\nrun until end\n\
-                  mode jog\njog X - for 0.1\nmode step\nstep X + 0.01\nshow position\n";
+    let script = "load part.nc\nselect O1\ncycle-start\nrun for 0.10033\nfeed-hold\nrun for 0.1\ncycle-start\nrun until end\n\
+                  mode jog\njog X - for 0.1\njog X -\nrun for 0.05\nreset\nmode step\nstep X + 0.01\nshow position\n";
     std::fs::write(folder.path().join("script.txt"), script).unwrap();
     let by_itself = operate(&folder, &["script.txt", "--io"]).output().unwrap();
     let by_the_clock = operate(&folder, &["script.txt", "--io", "--realtime"]).output().unwrap();

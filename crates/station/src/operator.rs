@@ -68,6 +68,7 @@ pub struct Operator<L> {
     waiting: VecDeque<Action>,
     /// The action that has begun and not ended.
     lasting: Option<lasting::Lasting>,
+    by_the_clock: bool,
 }
 
 impl<L: Library> Operator<L> {
@@ -95,6 +96,7 @@ impl<L: Shelf> Operator<L> {
             selected: None,
             waiting: VecDeque::new(),
             lasting: None,
+            by_the_clock: false,
         }
     }
 
@@ -139,6 +141,7 @@ impl<L: Shelf> Operator<L> {
     ) -> Result<(), LibraryError> {
         let outcome = match table::refusal(action, table::situation(&self.session, self.mode())) {
             Some(why) => Err(why.to_owned()),
+            None if self.stops_first(action) => Ok(()),
             None => self.act(action, tell)?,
         };
         if let Err(why) = outcome {

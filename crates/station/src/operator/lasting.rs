@@ -2,10 +2,11 @@
 //! that passes on a clock.
 
 use base::Seconds;
+use dialect::Key;
 use machine::EventKind;
 
 use super::{Operator, Said};
-use crate::action::Until;
+use crate::action::{Action, Until};
 use crate::library::{LibraryError, Shelf};
 use crate::session::{Session, Step};
 
@@ -17,12 +18,44 @@ pub(super) struct Lasting {
     end: Option<Seconds>,
     /// An axis' button is let go at its end.
     presses: bool,
+    /// The axes come to stand, and then this is done.
+    stops_for: Option<Action>,
 }
 
 impl<L: Shelf> Operator<L> {
     /// True while an action lasts.
     pub fn is_busy(&self) -> bool {
         self.lasting.is_some()
+    }
+
+    /// Time passes by a clock: axes that an action stops take their time to stand, and the action lasts as long.
+    pub fn run_by_the_clock(&mut self) {
+        self.by_the_clock = true;
+    }
+
+    /// The action stops the axes first; true if that takes time.
+    pub(super) fn stops_first(&mut self, action: &Action) -> bool {
+        let stops = match action {
+            Action::FeedHold => {
+                let lets = self.session.interpreter().executing_state().feed_control & 1 == 0;
+                lets && !self.session.is_tapping()
+            }
+            Action::Reset | Action::EmergencyStop | Action::PowerOff => true,
+            Action::Key(name) => self
+                .session
+                .configuration()
+                .control
+                .station
+                .keys
+                .iter()
+                .any(|(key, does)| key.eq_ignore_ascii_case(name) && *does == Key::Reset),
+            _ => false,
+        };
+        if !(self.by_the_clock && stops && self.session.is_driven()) {
+            return false;
+        }
+        self.lasting = Some(Lasting { until: Until::Idle, end: None, presses: false, stops_for: Some(action.clone()) });
+        true
     }
 
     /// What lasts is given up; an axis' button is let go.
@@ -37,7 +70,7 @@ impl<L: Shelf> Operator<L> {
             Until::Seconds(seconds) => Some(self.session.time() + Seconds(*seconds)),
             _ => None,
         };
-        self.lasting = Some(Lasting { until: until.clone(), end, presses });
+        self.lasting = Some(Lasting { until: until.clone(), end, presses, stops_for: None });
     }
 
     /// Lets time pass until the action that lasts has ended, at most to `limit`; true if that is not reached.
@@ -52,8 +85,18 @@ impl<L: Shelf> Operator<L> {
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<bool, LibraryError> {
         let ended = self.pass(limit, tell)?;
+        let presses = self.lasting.as_ref().is_some_and(|lasting| lasting.presses);
+        if ended && presses && self.stops_first(&Action::FeedHold) {
+            // Let go, the axis takes its time to stand.
+            return self.go_on(limit, tell);
+        }
         if ended {
+            let stops_for = self.lasting.as_mut().and_then(|lasting| lasting.stops_for.take());
             self.give_up();
+            if let Some(action) = stops_for {
+                // It was not refused when it began.
+                let _ = self.act(&action, tell)?;
+            }
         }
         self.settle(tell)?;
         Ok(ended)
@@ -64,9 +107,12 @@ impl<L: Shelf> Operator<L> {
         limit: Option<Seconds>,
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<bool, LibraryError> {
-        let Lasting { until, end, .. } = match &self.lasting {
-            Some(lasting) => lasting.clone(),
-            None => Lasting { until: Until::Seconds(0.0), end: limit, presses: false },
+        let stops = self.lasting.as_ref().is_some_and(|lasting| lasting.stops_for.is_some());
+        // A program's axes are stopped from one setpoint to the next, not between them.
+        let slows = stops && (self.session.is_moved_by_hand() || self.session.is_at_setpoint());
+        let (until, end) = match &self.lasting {
+            Some(Lasting { until, end, .. }) => (until.clone(), *end),
+            None => (Until::Seconds(0.0), limit),
         };
         let to = match (end, limit) {
             (Some(end), Some(limit)) => Some(Seconds(end.0.min(limit.0))),
@@ -74,6 +120,12 @@ impl<L: Shelf> Operator<L> {
         };
         let in_time = self.lasting.is_some() && end.is_some_and(|end| Some(end) == to);
         loop {
+            if slows {
+                self.session.slow_down();
+                if !self.session.is_driven() {
+                    return Ok(true);
+                }
+            }
             self.take_waiting(tell)?;
             if let Until::Line(line) = until
                 && self.session.line_begins().is_some_and(|place| place.line == line)

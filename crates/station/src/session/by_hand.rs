@@ -74,6 +74,16 @@ impl ByHand {
         }
     }
 
+    /// True while it is on its way.
+    pub fn moves(&self) -> bool {
+        self.stroke.leg().is_some()
+    }
+
+    /// It comes to stand as fast as it can.
+    pub fn slow_down(&mut self) {
+        self.stroke.hold(true);
+    }
+
     /// Time passes while the axis stands.
     pub fn stand(&mut self, elapsed: f64) {
         self.elapsed = self.elapsed.max(elapsed);

@@ -263,6 +263,25 @@ impl<L: Library> Session<L> {
         }
     }
 
+    /// True while axes are driven, by a program or by hand.
+    pub fn is_driven(&self) -> bool {
+        self.by_hand.as_ref().map_or_else(|| self.is_moving(), ByHand::moves)
+    }
+
+    /// True if it is just time for a setpoint.
+    pub fn is_at_setpoint(&self) -> bool {
+        let periods = self.time().0 / self.servo_period;
+        (periods - periods.round()).abs() < ON_THE_DOT
+    }
+
+    /// The axes shall stand as soon as they can.
+    pub fn slow_down(&mut self) {
+        match &mut self.by_hand {
+            Some(by_hand) => by_hand.slow_down(),
+            None => self.motion.hold(true),
+        }
+    }
+
     /// FEED HOLD: the axes come to stand, the rest of the move is kept. In tapping it waits for the end of the retract.
     pub fn feed_hold(&mut self) {
         if self.by_hand.is_some() {
@@ -289,7 +308,7 @@ impl<L: Library> Session<L> {
     }
 
     /// True while a tap is in the hole.
-    fn is_tapping(&self) -> bool {
+    pub fn is_tapping(&self) -> bool {
         self.live && self.tapping
     }
 

@@ -188,6 +188,7 @@ pub(super) fn run(
     let live = matches!(hands, Hands::Live);
     let (mut queue, writer) = (Queue::new(hands), Writer::new());
     let period = operator.session.servo_period();
+    operator.run_by_the_clock();
     let mut pace = Pace::new(operator.session.time(), Duration::from_secs_f64(period));
     let mut next_display = operator.session.time().0;
     loop {
