@@ -1,6 +1,7 @@
 //! The operator at work: actions on a session, refused with a reason where the control would refuse them.
 
 mod by_hand;
+mod restart;
 mod table;
 mod typing;
 mod write;
@@ -65,6 +66,8 @@ pub struct Operator<L> {
     selected: Option<String>,
     /// Actions taken while the axes moved, which act when they stand at the end of a move.
     waiting: VecDeque<Action>,
+    /// A restart in mid-program that has been asked for.
+    restart: Option<restart::Asked>,
 }
 
 impl<L: Library> Operator<L> {
@@ -85,7 +88,7 @@ impl<L: Shelf> Operator<L> {
     pub fn new(mut session: Session<L>) -> Operator<L> {
         session.set_repeats_main(true);
         session.run_live();
-        Operator { session, mode: 0, programs: BTreeMap::new(), selected: None, waiting: VecDeque::new() }
+        Operator { session, mode: 0, programs: BTreeMap::new(), selected: None, waiting: VecDeque::new(), restart: None }
     }
 
     /// Performs an action. What happens is handed to `tell`.
@@ -142,6 +145,9 @@ impl<L: Shelf> Operator<L> {
                 }
             }
         }
+        if restart::is_dropped_by(action) {
+            self.restart = None;
+        }
         let session = &mut self.session;
         match action {
             Action::PowerOn => session.power_on(),
@@ -166,6 +172,8 @@ impl<L: Shelf> Operator<L> {
             Action::Mode(name) => return Ok(self.turn_mode(name)),
             Action::Mdi(blocks) => return Ok(self.type_blocks(blocks)),
             Action::CycleStart => return Ok(self.cycle_start()),
+            Action::Restart(target) => return Ok(self.ask_restart(target, tell)),
+            Action::ConfirmRestart => return Ok(self.confirm_restart()),
             Action::Jog(..) | Action::Step(..) | Action::Home(_) => return self.move_by_hand(action, tell),
             Action::Show(show) => match self.display(show) {
                 Ok(value) => tell(&mut self.session, Said::Shown { what: show.to_string(), value }),
@@ -259,6 +267,9 @@ impl<L: Shelf> Operator<L> {
         } else {
             if self.selected.is_none() {
                 return Err("no program is selected".to_owned());
+            }
+            if let Some(begun) = self.begin_restart() {
+                return begun;
             }
             self.session.come_back();
             match begins {

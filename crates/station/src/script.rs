@@ -3,6 +3,7 @@
 use dialect::ParameterSetting;
 
 use crate::action::{Action, OverrideSwitch, Show, Until};
+use crate::block_target::read_block_target;
 use crate::fault::read_fault;
 use crate::setup::OffsetColumn;
 
@@ -116,6 +117,8 @@ pub fn read_action(line: &str) -> Result<Action, String> {
             Action::Step(axis_letter(axis)?, if up { way } else { -way })
         }
         ("home", [axis]) => Action::Home(axis_letter(axis)?),
+        ("restart", ["confirm"]) => Action::ConfirmRestart,
+        ("restart", [_, ..]) => Action::Restart(read_block_target(&words)?),
         _ => return Err(no_action()),
     })
 }
@@ -296,6 +299,9 @@ mod tests {
             "jog Z - for 2.5",
             "step Y - 0.01",
             "home X",
+            "restart line 12",
+            "restart O1234 N50 pass 3",
+            "restart confirm",
         ] {
             assert_eq!(read_action(line).expect(line).to_string(), line);
         }
@@ -314,6 +320,10 @@ mod tests {
             "jog X up",
             "step X + far",
             "home",
+            "restart",
+            "restart line",
+            "restart N0",
+            "restart O1 O2 N5",
         ] {
             assert!(read_action(line).is_err(), "{line}");
         }

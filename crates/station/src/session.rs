@@ -1,5 +1,6 @@
 //! A program in execution: the stages chained, their questions answered, their events handed out one by one.
 
+mod approach;
 mod awaiting;
 mod barriers;
 mod by_hand;
@@ -9,6 +10,7 @@ mod locks;
 mod rehearsal;
 mod states;
 mod telling;
+mod trial;
 mod trips;
 mod typed;
 
@@ -23,8 +25,10 @@ use crate::library::{Library, LibraryError};
 use crate::lock::AxisLock;
 use crate::switches::SessionSwitches;
 
+pub use approach::RestartPlan;
 pub use by_hand::HandMove;
 pub use locks::Percents;
+pub use trial::{Asked, Way};
 pub use typed::TYPED;
 use typed::Typed;
 
@@ -66,6 +70,10 @@ pub struct Session<L> {
     live: bool,
     under_way: Option<live::UnderWay>,
     by_hand: Option<by_hand::ByHand>,
+    /// The axes go here before the program is taken up in its middle.
+    approach: Option<Point>,
+    /// In a trial: what the program has asked.
+    asked: Option<trial::Asked>,
     /// From one setpoint to the next, s.
     servo_period: f64,
     /// No more time passes than to this one.
@@ -162,6 +170,8 @@ impl<L: Library> Session<L> {
             live: false,
             under_way: None,
             by_hand: None,
+            approach: None,
+            asked: None,
             servo_period: machine.limits().servo_period,
             deadline: None,
             hold_waits: false,
