@@ -3,7 +3,8 @@
 use base::{AxisSet, Place, Point};
 use dialect::{GroupCodes, RestartApproach};
 use machine::{EventKind, Machine, StopCause};
-use meaning::{CodeLine, CodeOut, LENGTH_AXIS};
+use meaning::{CodeLine, CodeOut, LENGTH_AXIS, RapidKind};
+use path::Shape;
 
 use super::by_hand::HandMove;
 use super::trial::{Arrived, Way};
@@ -61,7 +62,9 @@ impl<L: Library> Session<L> {
     pub fn plan_restart(&mut self, target: &BlockTarget) -> Result<RestartPlan, String> {
         self.refuse_locks()?;
         let arrived = self.try_to(target)?;
-        Ok(self.plan_of(&arrived))
+        let plan = self.plan_of(&arrived);
+        self.check_legs(&plan, &arrived)?;
+        Ok(plan)
     }
 
     /// Takes up the program at this block: the axes go there first, and it runs on.
@@ -87,6 +90,7 @@ impl<L: Library> Session<L> {
         (self.ended, self.rewound, self.label_skip) = (false, false, false);
         (self.stopped, self.feed_held) = (false, false);
         (self.fixes_override, self.switched) = (trial.fixes_override, true);
+        self.machine.take_area(&trial.machine);
         self.approach = Some(confirmed.to);
         let start = Place { program: place.program, source: place.source, ..Place::default() };
         self.tell(start, EventKind::Start(groups));
@@ -195,6 +199,25 @@ impl<L: Library> Session<L> {
             legs.push((z, to[z]));
         }
         legs
+    }
+
+    /// The way there must lie within the travel and out of the stroke area as the program has left it.
+    fn check_legs(&self, plan: &RestartPlan, arrived: &Arrived) -> Result<(), String> {
+        let mut machine = self.machine.clone();
+        machine.take_area(&arrived.trial.machine);
+        let mut from = self.position();
+        for &(axis, mm) in &plan.legs {
+            let mut to = from;
+            to[axis] = mm;
+            let shaped = self.hand_shape(Shape::Rapid { from, to, kind: RapidKind::Checked });
+            if let (_, Some(refusal)) = machine.free_part(&self.motion.time(&shaped)) {
+                let letter = self.configuration.machine.axes.get(axis).map_or('?', |axis| char::from(axis.letter));
+                let name = self.configuration.control.alarm_name(&refusal.alarm).name;
+                return Err(format!("the way there, {letter} to {mm}, meets {name}: bring the axes nearer by hand"));
+            }
+            from = to;
+        }
+        Ok(())
     }
 
     /// The axes go on to where the program is taken up; false if they are there.

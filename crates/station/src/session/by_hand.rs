@@ -129,7 +129,7 @@ impl<L: Library> Session<L> {
     }
 
     /// What a move by hand is to the machine.
-    fn hand_shape(&self, shape: Shape) -> Shaped {
+    pub(super) fn hand_shape(&self, shape: Shape) -> Shaped {
         Shaped { shape, place: Place::default(), certain: true, stroke_check: true, ..Shaped::default() }
     }
 
