@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::block_target::BlockTarget;
+use crate::edit::Edit;
 use crate::fault::Fault;
 use crate::setup::OffsetColumn;
 
@@ -129,6 +130,10 @@ pub enum Action {
     Restart(BlockTarget),
     /// `restart confirm`
     ConfirmRestart,
+    /// `search N50`, `search O1234`
+    Search(String),
+    /// `edit …`
+    Edit(Edit),
 }
 
 /// How a script writes the offset's cell.
@@ -213,6 +218,8 @@ impl fmt::Display for Action {
             }
             Action::Home(axis) => write!(f, "home {}", char::from(*axis)),
             Action::Restart(target) => write!(f, "restart {target}"),
+            Action::Search(wanted) => write!(f, "search {wanted}"),
+            Action::Edit(edit) => write!(f, "edit {edit}"),
             Action::ConfirmRestart => f.write_str("restart confirm"),
         }
     }

@@ -1,7 +1,9 @@
 //! The operator at work: actions on a session, refused with a reason where the control would refuse them.
 
 mod by_hand;
+mod editing;
 mod restart;
+mod search;
 mod table;
 mod typing;
 mod write;
@@ -52,6 +54,8 @@ struct Loaded {
     source: SourceId,
     /// Where it begins in that text.
     head: Cursor,
+    /// The name by which others call it, where a program is a file.
+    called: Option<String>,
 }
 
 /// An operator at a session's panel.
@@ -68,6 +72,8 @@ pub struct Operator<L> {
     waiting: VecDeque<Action>,
     /// A restart in mid-program that has been asked for.
     restart: Option<restart::Asked>,
+    /// The cursor of the edit display, a place in the selected program's text.
+    edit_at: usize,
 }
 
 impl<L: Library> Operator<L> {
@@ -88,7 +94,7 @@ impl<L: Shelf> Operator<L> {
     pub fn new(mut session: Session<L>) -> Operator<L> {
         session.set_repeats_main(true);
         session.run_live();
-        Operator { session, mode: 0, programs: BTreeMap::new(), selected: None, waiting: VecDeque::new(), restart: None }
+        Operator { session, mode: 0, programs: BTreeMap::new(), selected: None, waiting: VecDeque::new(), restart: None, edit_at: 0 }
     }
 
     /// Performs an action. What happens is handed to `tell`.
@@ -161,6 +167,7 @@ impl<L: Shelf> Operator<L> {
             Action::Reset => session.reset(),
             Action::EmergencyStop => session.press_emergency_stop(),
             Action::Release => session.release_emergency_stop(),
+            Action::Load(..) if session.is_edit_locked() => return Ok(Err(editing::LOCKED.to_owned())),
             Action::Load(file, name) => self.load(file, name.as_deref())?,
             Action::Run(until) => {
                 self.session.begin_rounds();
@@ -172,6 +179,8 @@ impl<L: Shelf> Operator<L> {
             Action::Mode(name) => return Ok(self.turn_mode(name)),
             Action::Mdi(blocks) => return Ok(self.type_blocks(blocks)),
             Action::CycleStart => return Ok(self.cycle_start()),
+            Action::Search(wanted) => return self.search(wanted, tell),
+            Action::Edit(edit) => return self.edit(edit),
             Action::Restart(target) => return Ok(self.ask_restart(target, tell)),
             Action::ConfirmRestart => return Ok(self.confirm_restart()),
             Action::Jog(..) | Action::Step(..) | Action::Home(_) => return self.move_by_hand(action, tell),
@@ -242,12 +251,13 @@ impl<L: Shelf> Operator<L> {
 
     fn select(&mut self, name: &str) -> Result<(), String> {
         let key = memory_key(name, self.files());
-        let Some(Loaded { name, source, head }) = self.programs.get(&key) else {
+        let Some(Loaded { name, source, head, .. }) = self.programs.get(&key) else {
             return Err(format!("there is no program {} in memory", normal_name(name)));
         };
         self.session.interpreter_mut().forget_texts();
         self.session.select(*source, name, *head);
         self.selected = Some(key);
+        self.edit_at = 0;
         Ok(())
     }
 
@@ -311,7 +321,7 @@ impl<L: Shelf> Operator<L> {
                 self.session.library_mut().keep_in_memory(Wanted::Number(number, ""), source);
             }
             reloaded |= self.selected.as_ref() == Some(&name);
-            self.programs.insert(name.clone(), Loaded { name, source, head });
+            self.programs.insert(name.clone(), Loaded { name, source, head, called: None });
         }
         self.take_new_texts(reloaded);
         Ok(())
@@ -340,7 +350,7 @@ impl<L: Shelf> Operator<L> {
         let called = format!("{key}.{}", large.unwrap_or(&files.ending).to_ascii_uppercase());
         self.session.library_mut().keep_in_memory(Wanted::File(&called), source);
         let reloaded = self.selected.as_ref() == Some(&key);
-        self.programs.insert(key, Loaded { name: shown.to_owned(), source, head: Cursor::HEAD });
+        self.programs.insert(key, Loaded { name: shown.to_owned(), source, head: Cursor::HEAD, called: Some(called) });
         self.take_new_texts(reloaded);
         Ok(())
     }
