@@ -271,6 +271,17 @@ impl Shelf for Texts {
             Wanted::File(name) => drop(self.memory_files.insert(name.to_owned(), source)),
         }
     }
+
+    fn forget_in_memory(&mut self, program: Wanted) {
+        match program {
+            Wanted::Number(number, _) => drop(self.memory.remove(&number)),
+            Wanted::File(name) => drop(self.memory_files.remove(name)),
+        }
+    }
+
+    fn hold_text(&mut self, name: &str, text: Vec<u8>) -> Result<SourceId, LibraryError> {
+        self.spooled(name, Box::new(io::Cursor::new(text))).map_err(LibraryError)
+    }
 }
 
 /// A tape's characters as people read them, up to the end of the block: rows that are passed over leave a blank, those

@@ -46,8 +46,8 @@ pub use policy::{
     CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleWithMotion, DwellVariable, FeedModeChange, G87Return,
     G92System, InchFeedInteger, LengthWithoutZ, M01OffOutput, MOver99, MdiCalls, OneShotCompany, Options, Policies,
     PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ProgrammedPosition, ReferenceVia,
-    ResetPointer, ScalingBoreLevels, ScalingCompany, ScalingNegativeRatio, SkipWithoutSignal, StrokeCheck,
-    SubprogramTextEnd, TipSingularity, UnitChangeOffsets,
+    ResetPointer, RestartApproach, ScalingBoreLevels, ScalingCompany, ScalingNegativeRatio, SkipWithoutSignal,
+    StrokeCheck, SubprogramTextEnd, TipSingularity, UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Class, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,

@@ -244,6 +244,13 @@ policies! {
         /// At the head of the main program.
         Head = "head",
     }
+    /// How the axes go to where a program is taken up in its middle.
+    restart_approach: RestartApproach = "restart-approach" {
+        /// The tool goes off the work first, and down last.
+        Retract = "retract",
+        /// Axis after axis from where they stand, the tool's axis last.
+        Direct = "direct",
+    }
     /// Whether calls and macros may be typed in MDI.
     mdi_calls: MdiCalls = "mdi-calls" {
         /// They are refused.

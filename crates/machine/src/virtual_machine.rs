@@ -130,6 +130,11 @@ impl VirtualMachine {
         }
     }
 
+    /// The second stored stroke area is that of another machine in virtual time.
+    pub fn take_area(&mut self, other: &VirtualMachine) {
+        self.area = other.area;
+    }
+
     /// Checking on after an alarm: where these axes are is not known.
     pub fn set_unknown(&mut self, axes: AxisSet) {
         self.unknown = axes;

@@ -198,6 +198,11 @@ impl Interpreter {
         self.reader.tells_variables = tells;
     }
 
+    /// True if writes to variables are told.
+    pub fn tells_variables(&self) -> bool {
+        self.reader.tells_variables
+    }
+
     /// What the control has read: the state after the last block read.
     pub fn read_state(&self) -> &State {
         &self.reader.state

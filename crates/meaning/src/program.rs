@@ -128,6 +128,13 @@ pub(crate) enum CalledBy {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Pointer(pub(crate) Frame);
 
+impl Pointer {
+    /// Where in its text the next block to read begins.
+    pub const fn offset(&self) -> u64 {
+        self.0.cursor.offset
+    }
+}
+
 /// One program in execution: the main program or a subprogram on its level.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Frame {

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::block_target::BlockTarget;
+use crate::edit::Edit;
 use crate::fault::Fault;
 use crate::setup::OffsetColumn;
 
@@ -124,6 +126,14 @@ pub enum Action {
     Step(u8, f64),
     /// `home X`
     Home(u8),
+    /// `restart [O1234] line N|N50 [pass P]`
+    Restart(BlockTarget),
+    /// `restart confirm`
+    ConfirmRestart,
+    /// `search N50`, `search O1234`
+    Search(String),
+    /// `edit …`
+    Edit(Edit),
 }
 
 /// How a script writes the offset's cell.
@@ -207,6 +217,10 @@ impl fmt::Display for Action {
                 write!(f, "step {} {} {}", char::from(*axis), if *way < 0.0 { '-' } else { '+' }, way.abs())
             }
             Action::Home(axis) => write!(f, "home {}", char::from(*axis)),
+            Action::Restart(target) => write!(f, "restart {target}"),
+            Action::Search(wanted) => write!(f, "search {wanted}"),
+            Action::Edit(edit) => write!(f, "edit {edit}"),
+            Action::ConfirmRestart => f.write_str("restart confirm"),
         }
     }
 }

@@ -85,7 +85,8 @@ impl<L: Library> Operator<L> {
         }))
     }
 
-    fn program(&self) -> Value {
+    fn program(&mut self) -> Value {
+        let page = self.edit_page();
         let session = &self.session;
         let state = session.interpreter().executing_state();
         let typed = String::from_utf8_lossy(session.typed_blocks());
@@ -95,7 +96,7 @@ impl<L: Library> Operator<L> {
             let row = session.configuration().control.m_of(codes[usize::from(on)]);
             row.map_or(Value::Null, |row| Value::Text(format!("M{:02}", row.code)))
         };
-        Value::object([
+        let mut value = Value::object([
             ("name", Value::text_or_null(self.running_name())),
             ("line", Value::Number(session.place().line as f64)),
             ("f", Value::Number(state.feed.nanometres / 1e6)),
@@ -111,7 +112,11 @@ impl<L: Library> Operator<L> {
             ("label_skip", Value::Truth(session.label_skip())),
             ("typed", Value::List(typed.lines().map(Value::text).collect())),
             ("memory", Value::List(self.programs().map(Value::text).collect())),
-        ])
+        ]);
+        if let Value::Object(fields) = &mut value {
+            fields.extend(page.into_iter().flatten());
+        }
+        value
     }
 
     fn state(&self) -> Value {
@@ -159,7 +164,7 @@ impl<L: Library> Operator<L> {
 
     fn program_name(&self) -> Option<&str> {
         let interpreter = self.session.interpreter();
-        interpreter.main_program().map(|(program, _)| interpreter.program_name(program))
+        interpreter.main_program().map(|(program, _)| interpreter.program_name(program)).filter(|name| !name.is_empty())
     }
 }
 

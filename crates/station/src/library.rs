@@ -54,4 +54,15 @@ pub trait Shelf: Library {
 
     /// This program is in the control's memory: [`Library::find_program`] finds it before any other.
     fn keep_in_memory(&mut self, program: Wanted, source: SourceId);
+
+    /// This program is no longer in the control's memory.
+    fn forget_in_memory(&mut self, _program: Wanted) {}
+
+    /// Keeps a text that was written at the control.
+    ///
+    /// # Errors
+    /// There is no room for it.
+    fn hold_text(&mut self, _name: &str, _text: Vec<u8>) -> Result<SourceId, LibraryError> {
+        Err(LibraryError("programs cannot be written here".to_owned()))
+    }
 }

@@ -1,7 +1,10 @@
 //! The operator at work: actions on a session, refused with a reason where the control would refuse them.
 
 mod by_hand;
+mod editing;
 mod lasting;
+mod restart;
+mod search;
 mod table;
 mod typing;
 mod write;
@@ -52,6 +55,8 @@ struct Loaded {
     source: SourceId,
     /// Where it begins in that text.
     head: Cursor,
+    /// The name by which others call it, where a program is a file.
+    called: Option<String>,
 }
 
 /// An operator at a session's panel.
@@ -69,6 +74,10 @@ pub struct Operator<L> {
     /// The action that has begun and not ended.
     lasting: Option<lasting::Lasting>,
     by_the_clock: bool,
+    /// A restart in mid-program that has been asked for.
+    restart: Option<restart::Asked>,
+    /// The cursor of the edit display, a place in the selected program's text.
+    edit_at: usize,
 }
 
 impl<L: Library> Operator<L> {
@@ -97,6 +106,8 @@ impl<L: Shelf> Operator<L> {
             waiting: VecDeque::new(),
             lasting: None,
             by_the_clock: false,
+            restart: None,
+            edit_at: 0,
         }
     }
 
@@ -177,6 +188,9 @@ impl<L: Shelf> Operator<L> {
                 }
             }
         }
+        if restart::is_dropped_by(action) {
+            self.restart = None;
+        }
         let session = &mut self.session;
         match action {
             Action::PowerOn => session.power_on(),
@@ -190,6 +204,7 @@ impl<L: Shelf> Operator<L> {
             Action::Reset => session.reset(),
             Action::EmergencyStop => session.press_emergency_stop(),
             Action::Release => session.release_emergency_stop(),
+            Action::Load(..) if session.is_edit_locked() => return Ok(Err(editing::LOCKED.to_owned())),
             Action::Load(file, name) => self.load(file, name.as_deref())?,
             Action::Run(until) => {
                 self.session.begin_rounds();
@@ -201,6 +216,10 @@ impl<L: Shelf> Operator<L> {
             Action::Mode(name) => return Ok(self.turn_mode(name)),
             Action::Mdi(blocks) => return Ok(self.type_blocks(blocks)),
             Action::CycleStart => return Ok(self.cycle_start()),
+            Action::Search(wanted) => return self.search(wanted, tell),
+            Action::Edit(edit) => return self.edit(edit),
+            Action::Restart(target) => return Ok(self.ask_restart(target, tell)),
+            Action::ConfirmRestart => return Ok(self.confirm_restart()),
             Action::Jog(..) | Action::Step(..) | Action::Home(_) => return Ok(self.move_by_hand(action)),
             Action::Show(show) => match self.display(show) {
                 Ok(value) => tell(&mut self.session, Said::Shown { what: show.to_string(), value }),
@@ -269,12 +288,13 @@ impl<L: Shelf> Operator<L> {
 
     fn select(&mut self, name: &str) -> Result<(), String> {
         let key = memory_key(name, self.files());
-        let Some(Loaded { name, source, head }) = self.programs.get(&key) else {
+        let Some(Loaded { name, source, head, .. }) = self.programs.get(&key) else {
             return Err(format!("there is no program {} in memory", normal_name(name)));
         };
         self.session.interpreter_mut().forget_texts();
         self.session.select(*source, name, *head);
         self.selected = Some(key);
+        self.edit_at = 0;
         Ok(())
     }
 
@@ -294,6 +314,9 @@ impl<L: Shelf> Operator<L> {
         } else {
             if self.selected.is_none() {
                 return Err("no program is selected".to_owned());
+            }
+            if let Some(begun) = self.begin_restart() {
+                return begun;
             }
             self.session.come_back();
             match begins {
@@ -335,7 +358,7 @@ impl<L: Shelf> Operator<L> {
                 self.session.library_mut().keep_in_memory(Wanted::Number(number, ""), source);
             }
             reloaded |= self.selected.as_ref() == Some(&name);
-            self.programs.insert(name.clone(), Loaded { name, source, head });
+            self.programs.insert(name.clone(), Loaded { name, source, head, called: None });
         }
         self.take_new_texts(reloaded);
         Ok(())
@@ -364,7 +387,7 @@ impl<L: Shelf> Operator<L> {
         let called = format!("{key}.{}", large.unwrap_or(&files.ending).to_ascii_uppercase());
         self.session.library_mut().keep_in_memory(Wanted::File(&called), source);
         let reloaded = self.selected.as_ref() == Some(&key);
-        self.programs.insert(key, Loaded { name: shown.to_owned(), source, head: Cursor::HEAD });
+        self.programs.insert(key, Loaded { name: shown.to_owned(), source, head: Cursor::HEAD, called: Some(called) });
         self.take_new_texts(reloaded);
         Ok(())
     }

@@ -3,6 +3,8 @@
 use dialect::ParameterSetting;
 
 use crate::action::{Action, OverrideSwitch, Show, Until};
+use crate::block_target::read_block_target;
+use crate::edit::read_edit;
 use crate::fault::read_fault;
 use crate::setup::OffsetColumn;
 
@@ -44,7 +46,7 @@ pub fn read_script(text: &str) -> Result<Vec<ScriptLine>, ScriptError> {
 
 /// The line up to its comment. In a typed block `#` and a digit, `[` or another `#` is a macro variable.
 pub fn without_comment(line: &str) -> &str {
-    let typed = line.trim_start().starts_with("mdi ");
+    let typed = ["mdi ", "edit "].iter().any(|verb| line.trim_start().starts_with(verb));
     let comment = line.char_indices().find(|&(at, character)| {
         let variable =
             typed && line[at + 1..].starts_with(|next: char| next.is_ascii_digit() || matches!(next, '[' | '#'));
@@ -116,6 +118,10 @@ pub fn read_action(line: &str) -> Result<Action, String> {
             Action::Step(axis_letter(axis)?, if up { way } else { -way })
         }
         ("home", [axis]) => Action::Home(axis_letter(axis)?),
+        ("search", [wanted]) => Action::Search((*wanted).to_owned()),
+        ("edit", words) => Action::Edit(read_edit(words, rest).ok_or_else(no_action)?),
+        ("restart", ["confirm"]) => Action::ConfirmRestart,
+        ("restart", [_, ..]) => Action::Restart(read_block_target(&words)?),
         _ => return Err(no_action()),
     })
 }
@@ -296,6 +302,17 @@ mod tests {
             "jog Z - for 2.5",
             "step Y - 0.01",
             "home X",
+            "restart line 12",
+            "restart O1234 N50 pass 3",
+            "restart confirm",
+            "search N50",
+            "edit find X10.",
+            "edit line 12",
+            "edit insert G04 P500 ; X#1",
+            "edit delete",
+            "edit delete block",
+            "edit delete program O1",
+            "edit new O1",
         ] {
             assert_eq!(read_action(line).expect(line).to_string(), line);
         }
@@ -314,6 +331,14 @@ mod tests {
             "jog X up",
             "step X + far",
             "home",
+            "restart",
+            "edit",
+            "edit find",
+            "edit line x",
+            "search",
+            "restart line",
+            "restart N0",
+            "restart O1 O2 N5",
         ] {
             assert!(read_action(line).is_err(), "{line}");
         }

@@ -1,5 +1,6 @@
 //! A program in execution: the stages chained, their questions answered, their events handed out one by one.
 
+mod approach;
 mod awaiting;
 mod barriers;
 mod by_hand;
@@ -10,6 +11,7 @@ mod locks;
 mod rehearsal;
 mod states;
 mod telling;
+mod trial;
 mod trips;
 mod typed;
 
@@ -24,8 +26,10 @@ use crate::library::{Library, LibraryError};
 use crate::lock::AxisLock;
 use crate::switches::SessionSwitches;
 
+pub use approach::RestartPlan;
 pub use by_hand::HandMove;
 pub use locks::Percents;
+pub use trial::{Asked, Way};
 pub use typed::TYPED;
 use typed::Typed;
 
@@ -69,6 +73,10 @@ pub struct Session<L> {
     by_hand: Option<by_hand::ByHand>,
     /// A dwell is under way: since when, s, stops on the way not counted in.
     dwelling: Option<f64>,
+    /// The axes go here before the program is taken up in its middle.
+    approach: Option<Point>,
+    /// In a trial: what the program has asked.
+    asked: Option<trial::Asked>,
     /// From one setpoint to the next, s.
     servo_period: f64,
     /// No more time passes than to this one.
@@ -166,6 +174,8 @@ impl<L: Library> Session<L> {
             under_way: None,
             by_hand: None,
             dwelling: None,
+            approach: None,
+            asked: None,
             servo_period: machine.limits().servo_period,
             deadline: None,
             hold_waits: false,
@@ -348,6 +358,25 @@ impl<L: Library> Session<L> {
         self.rewound = true;
         self.ended = true;
         self.start();
+    }
+
+    /// The selected program goes on at this block of its text, everything else as it stands.
+    pub fn point_at(&mut self, block: syntax::Cursor) {
+        self.come_back();
+        self.leave_program();
+        self.interpreter_mut().go_to_block(block);
+        (self.pulled, self.between_blocks, self.told) = (false, true, None);
+        (self.rewound, self.ended) = (false, true);
+    }
+
+    /// True if CYCLE START would begin the selected program at its head.
+    pub fn stands_at_head(&self) -> bool {
+        self.rewound
+    }
+
+    /// The key EDIT LOCK is on.
+    pub fn is_edit_locked(&self) -> bool {
+        self.switches.edit_lock
     }
 
     /// Turns a switch.

@@ -23,11 +23,13 @@ pub struct SessionSwitches {
     pub z_cancel: bool,
     /// Moves by hand count into the program's coordinates. Off, the program runs beside its place by as much.
     pub manual_absolute: bool,
+    /// Programs in memory are not changed.
+    pub edit_lock: bool,
 }
 
 /// Every switch by its name; `block-delete` may take a number.
 const NAMES: &str = "optional-stop, block-delete[=n], single-block, dry-run, machine-lock, display-lock, aux-lock, \
-                     z-cancel, manual-absolute";
+                     z-cancel, manual-absolute, edit-lock";
 
 impl SessionSwitches {
     /// Turns a switch by its name.
@@ -49,6 +51,7 @@ impl SessionSwitches {
             "aux-lock" => &mut self.aux_lock,
             "z-cancel" => &mut self.z_cancel,
             "manual-absolute" => &mut self.manual_absolute,
+            "edit-lock" => &mut self.edit_lock,
             _ => {
                 let names = NAMES.split(", ").map(|name| name.trim_end_matches("[=n]"));
                 return Err(match nearest(name, names) {

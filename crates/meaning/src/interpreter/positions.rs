@@ -8,9 +8,13 @@ use crate::state::State;
 impl Interpreter {
     /// Where the axes are in the coordinates of the work system in force: mm and degrees for a machine position.
     pub fn work_position(&self, machine: &Point) -> Point {
+        self.work_position_in(self.executing_state(), machine)
+    }
+
+    /// The same in the work system of a state.
+    pub fn work_position_in(&self, state: &State, machine: &Point) -> Point {
         let setting = &self.reader.setting;
         let mut work = [0.0; AXES];
-        let state = self.executing_state();
         let place = setting.upright(state, &machine.map(|mm| (mm * 1e6).round()));
         for axis in 0..setting.facts.axes.len().min(AXES) {
             work[axis] = (place[axis] - setting.zero(state, axis)) / 1e6;

@@ -2,6 +2,7 @@
 
 use base::{AxisSet, Point};
 use dialect::{Fate, Occasion, ResetPointer, StateItem};
+use syntax::Cursor;
 
 use super::{Interpreter, to_counts};
 use crate::occasion::state_after;
@@ -93,6 +94,13 @@ impl Interpreter {
     pub fn go_back_to(&mut self, pointer: Pointer) {
         self.drop_queue();
         self.reader.go_back_to(pointer.0);
+        self.started = false;
+    }
+
+    /// The main program goes on at this block of its text, everything else as it stands.
+    pub fn go_to_block(&mut self, block: Cursor) {
+        self.drop_queue();
+        self.reader.go_to_block(block);
         self.started = false;
     }
 

@@ -63,6 +63,15 @@ impl Reader {
         }
     }
 
+    /// Goes on in the main program at this block.
+    pub fn go_to_block(&mut self, block: Cursor) {
+        self.rewind();
+        if let Some(main) = self.calls.frames.first_mut() {
+            main.begun = block.offset > main.head.offset;
+            main.cursor = block;
+        }
+    }
+
     /// Reads on in another main program, where it was left.
     pub fn go_back_to(&mut self, frame: Frame) {
         self.calls.frames.clear();

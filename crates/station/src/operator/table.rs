@@ -80,6 +80,11 @@ enum Kind {
     Jog,
     Step,
     Home,
+    /// Restart in mid-program.
+    Restart,
+    /// Sequence-number and program search.
+    Search,
+    Edit,
 }
 
 fn kind(action: &Action) -> Kind {
@@ -107,6 +112,9 @@ fn kind(action: &Action) -> Kind {
         Action::Jog(..) => Kind::Jog,
         Action::Step(..) => Kind::Step,
         Action::Home(_) => Kind::Home,
+        Action::Restart(_) | Action::ConfirmRestart => Kind::Restart,
+        Action::Search(_) => Kind::Search,
+        Action::Edit(_) => Kind::Edit,
     }
 }
 
@@ -184,6 +192,9 @@ const TABLE: &[(Kind, [Answer; SITUATIONS])] = &[
     (Kind::Jog,           [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
     (Kind::Step,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
     (Kind::Home,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::Restart,       [OFF,       PRESSED,    ALARM,        GO,           NO_START,     MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::Search,        [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::Edit,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
 ];
 
 /// True for a mode in which the axes are moved by hand.
@@ -230,6 +241,6 @@ mod tests {
         for (index, (kind, _)) in TABLE.iter().enumerate() {
             assert_eq!(TABLE.iter().position(|(other, _)| other == kind), Some(index), "{kind:?}");
         }
-        assert_eq!(TABLE.len(), Kind::Home as usize + 1);
+        assert_eq!(TABLE.len(), Kind::Edit as usize + 1);
     }
 }

@@ -33,6 +33,9 @@ impl<L: Library> Session<L> {
     #[cold]
     #[inline(never)]
     fn answer(&mut self, barrier: Barrier) -> bool {
+        if let Some(asked) = &mut self.asked {
+            asked.note(&barrier.kind);
+        }
         let answered = match barrier.kind {
             BarrierKind::NeedBytes { source: TYPED, offset, .. } => {
                 let text = &self.typed.text;

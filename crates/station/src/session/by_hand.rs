@@ -26,6 +26,8 @@ pub enum HandMove {
     By(f64),
     /// To the first reference point, at the rapid rate.
     Home,
+    /// To this machine coordinate, at the jog speed: where a program is taken up.
+    To(f64),
 }
 
 /// A move by hand under way.
@@ -106,6 +108,7 @@ impl<L: Library> Session<L> {
         to[axis] = match how {
             HandMove::Button { up: true, .. } => from[axis].max(travel.high[axis]) + BEYOND,
             HandMove::Button { .. } => from[axis].min(travel.low[axis]) - BEYOND,
+            HandMove::To(mm) => mm,
             HandMove::By(way) => ((from[axis] + way) * 1e6).round() / 1e6,
             HandMove::Home => {
                 let axes = &self.configuration.machine.axes;
@@ -136,7 +139,7 @@ impl<L: Library> Session<L> {
     }
 
     /// What a move by hand is to the machine.
-    fn hand_shape(&self, shape: Shape) -> Shaped {
+    pub(super) fn hand_shape(&self, shape: Shape) -> Shaped {
         Shaped { shape, place: Place::default(), certain: true, stroke_check: true, ..Shaped::default() }
     }
 
@@ -197,6 +200,12 @@ impl<L: Library> Session<L> {
         let (arrived, axis) = (by_hand.stroke.has_arrived(), by_hand.axis);
         let mut to = by_hand.setpoint().position;
         to[axis] = (to[axis] * 1e6).round() / 1e6;
+        if let HandMove::To(mm) = by_hand.how
+            && arrived
+            && by_hand.border.is_none()
+        {
+            to[axis] = mm;
+        }
         let way = to[axis] - by_hand.from[axis];
         let shaped = self.hand_shape(Shape::Rapid { from: by_hand.from, to, kind: RapidKind::Checked });
         let duration = base::Seconds(by_hand.elapsed);
@@ -207,6 +216,13 @@ impl<L: Library> Session<L> {
         } else {
             let until = self.machine.time() + duration;
             self.machine.stand_until(until, &mut self.events);
+        }
+        if let HandMove::To(_) = by_hand.how {
+            // The program counts the axes to be there already.
+            if let (true, Some(refusal)) = (arrived, by_hand.border) {
+                self.raise(refusal.alarm);
+            }
+            return;
         }
         let home = arrived && by_hand.border.is_none() && by_hand.how == HandMove::Home;
         let returned = if home { AxisSet::only(axis) } else { AxisSet::NONE };

@@ -285,7 +285,8 @@ impl<L: Library> Session<L> {
     /// FEED HOLD: the axes come to stand, the rest of the move is kept. In tapping it waits for the end of the retract.
     pub fn feed_hold(&mut self) {
         if self.by_hand.is_some() {
-            return self.stop_by_hand();
+            self.stop_by_hand();
+            return self.hold_approach();
         }
         if self.is_tapping() {
             self.hold_waits = true;

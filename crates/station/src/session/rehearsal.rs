@@ -70,7 +70,7 @@ impl Lent {
     }
 
     /// Answers what was asked for; false if nothing was, or it cannot be had.
-    fn answer(&mut self, library: &mut impl Library) -> bool {
+    pub fn answer(&mut self, library: &mut impl Library) -> bool {
         let Some(request) = self.wanted.take() else { return false };
         let found = match &request {
             Request::Bytes(source, offset, len) => {
@@ -230,7 +230,7 @@ impl<L: Library> Session<L> {
     }
 
     /// A session that stands where this one stands, before the move that is to be executed now.
-    fn begin_rehearsal(&self) -> Session<Lent> {
+    pub(super) fn begin_rehearsal(&self) -> Session<Lent> {
         Session {
             motion: self.motion.unplanned(),
             machine: self.machine.clone(),
@@ -241,6 +241,8 @@ impl<L: Library> Session<L> {
             under_way: None,
             by_hand: None,
             dwelling: None,
+            approach: None,
+            asked: None,
             servo_period: self.servo_period,
             deadline: None,
             hold_waits: false,

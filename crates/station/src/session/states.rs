@@ -114,7 +114,8 @@ impl<L: Library> Session<L> {
     }
 
     pub(super) fn change_states(&mut self, occasion: Occasion, cause: ResetCause) {
-        let refused = self.alarm.is_some();
+        // A block that the axes are still on their way to has not begun either.
+        let refused = self.alarm.is_some() || self.approach.is_some();
         // The block that was executed last belongs to it only while its program runs or ends by it.
         let belongs = self.is_running() || occasion == Occasion::ProgramEnd;
         let place = if belongs { self.place() } else { Place::default() };
@@ -177,6 +178,7 @@ impl<L: Library> Session<L> {
     fn drop_work(&mut self) {
         self.machine.drop_codes(&mut self.events);
         self.closing = None;
+        self.approach = None;
         self.awaited = false;
         self.codes.clear();
         self.between_blocks = true;

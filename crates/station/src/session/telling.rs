@@ -53,6 +53,9 @@ impl<L: Library> Session<L> {
         if self.ended || self.alarm.is_some() || self.goes_round() || self.is_time_up() {
             return Some(Step::Idle);
         }
+        if self.goes_on_approaching() {
+            return None;
+        }
         if self.closing.is_some() {
             let still = !self.go_on_closing() && self.has_told_all() && self.next_trip() > self.time().0;
             return still.then_some(Step::Idle);

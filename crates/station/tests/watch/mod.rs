@@ -96,6 +96,16 @@ impl Shelf for Texts {
         self.programs.retain(|(known, _)| *known != number);
         self.programs.push((number, source));
     }
+
+    fn forget_in_memory(&mut self, program: Wanted) {
+        let Wanted::Number(number, _) = program else { return };
+        self.programs.retain(|(known, _)| *known != number);
+    }
+
+    fn hold_text(&mut self, _name: &str, text: Vec<u8>) -> Result<SourceId, LibraryError> {
+        self.texts.push(text);
+        Ok(SourceId((self.texts.len() - 1) as u32))
+    }
 }
 
 /// A built-in machine, its travel narrowed to ± this many mm if any are given.
