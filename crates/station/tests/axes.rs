@@ -2,7 +2,8 @@
 //! above the speed, acceleration and jerk of any axis, and never farther off the path than a corner may be left.
 //!
 //! The environment can ask for more: PERIODS of a single program at most, PROGRAMS_IN a folder of programs to drive as
-//! well. `benches/limits.py` asks for both.
+//! well. `benches/limits.py` asks for both. ONLY names a single case, SEED
+//! other deeds of the hand.
 
 #![allow(clippy::expect_used, clippy::panic)]
 
@@ -33,10 +34,15 @@ fn sorted(folder: &Path) -> Vec<PathBuf> {
 fn over_cases(hand: impl Fn(u64) -> Hand) -> Figures {
     let corpus = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases"));
     let (mut all, mut wrong) = (Figures::default(), Vec::new());
+    let only = std::env::var("ONLY").ok();
     for family in sorted(corpus).into_iter().filter(|path| path.is_dir()) {
         for folder in sorted(&family).into_iter().filter(|path| path.join("case.toml").is_file()) {
             let Some(mut session) = driven::case::session(&family, &folder) else { continue };
             let name = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            if only.as_ref().is_some_and(|only| *only != name) {
+                all.programs += 1;
+                continue;
+            }
             if let Err(what) = drive(&mut session, periods(), &mut hand(all.programs), &mut all) {
                 wrong.push(format!("{name}: {what}"));
             }
@@ -55,7 +61,8 @@ fn every_case_keeps_to_the_limits_of_its_machine() {
 
 #[test]
 fn so_does_every_case_with_holds_and_overrides_thrown_in() {
-    let all = over_cases(Hand::on);
+    let seed = std::env::var("SEED").map_or(0, |seed| seed.parse::<u64>().expect("SEED is a number"));
+    let all = over_cases(|program| Hand::on(program + 1_000_003 * seed));
     println!("cases, overrides, holds and single block thrown in: {all}");
     assert!(all.acts > 1000, "{all}");
 }

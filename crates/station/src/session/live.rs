@@ -325,6 +325,8 @@ impl<L: Library> Session<L> {
         if self.tapping || !self.hold_waits {
             return false;
         }
+        // What comes next has been pulled and waits for CYCLE START.
+        self.pulled = true;
         self.feed_hold();
         true
     }
