@@ -4,11 +4,13 @@
 
 mod watch;
 
+use std::collections::BTreeMap;
+
 use dialect::ParameterSetting;
 use machine::{Event, EventKind};
 use proptest::prelude::*;
 use proptest::sample::select;
-use station::{Action, OffsetColumn, Operator, OverrideSwitch, Said, Session, Setup, Show, Until, read_action};
+use station::{Action, OffsetColumn, Operator, OverrideSwitch, Said, Session, Setup, Show, Until, Value, read_action};
 use watch::{Texts, Watch, configuration, machine};
 
 /// Programs with all that can hold one up, and (first) one that works whatever came before it.
@@ -70,7 +72,7 @@ fn write() -> impl Strategy<Value = Action> {
     let percent = select(vec![0, 10, 25, 50, 55, 100, 200]);
     let switch = select(vec![OverrideSwitch::Feed, OverrideSwitch::Rapid, OverrideSwitch::Spindle]);
     prop_oneof![
-        (select(vec!["EOP", "RWD", "skip", "interrupt", "UI3", "nothing"]), any::<bool>())
+        (select(vec!["EOP", "RWD", "FIN", "skip", "interrupt", "UI3", "nothing"]), any::<bool>())
             .prop_map(|(name, on)| Action::Input(name.to_owned(), on)),
         (
             names(&[
@@ -103,6 +105,32 @@ fn write() -> impl Strategy<Value = Action> {
     ]
 }
 
+/// What breaks, and what is done with programs.
+fn written() -> impl Strategy<Value = Action> {
+    let lines = [
+        "fault fin never",
+        "fault fin early",
+        "fault fin stuck",
+        "fault spindle-speed",
+        "fault limit X + at 3",
+        "fault servo X",
+        "fault power",
+        "input FIN on",
+        "input FIN off",
+        "search N7",
+        "search P2",
+        "restart N8",
+        "restart line 3",
+        "restart confirm",
+        "edit insert X2.",
+        "edit delete",
+        "edit find G00",
+    ];
+    let read = lines.iter().filter_map(|line| read_action(line).ok()).collect::<Vec<_>>();
+    assert!(read.len() > 12, "{} of {} lines are actions", read.len(), lines.len());
+    select(read)
+}
+
 fn action() -> impl Strategy<Value = Action> {
     let program = prop_oneof![9 => (0..PROGRAMS.len()).prop_map(|n| format!("P{n}")), 1 => Just("none".to_owned())];
     let until = prop_oneof![
@@ -110,7 +138,8 @@ fn action() -> impl Strategy<Value = Action> {
         Just(Until::End),
         Just(Until::Alarm),
         Just(Until::Idle),
-        (0u64..8).prop_map(Until::Line)
+        (0u64..8).prop_map(Until::Line),
+        select(vec![0.005, 0.3]).prop_map(Until::Seconds)
     ];
     let show =
         select(vec![Show::Modal, Show::Position, Show::Machine, Show::Alarm, Show::Feed, Show::Program, Show::State]);
@@ -123,6 +152,7 @@ fn action() -> impl Strategy<Value = Action> {
         2 => names(TYPED).prop_map(Action::Mdi),
         8 => until.prop_map(Action::Run),
         1 => show.prop_map(Action::Show),
+        2 => written(),
         1 => (0..PROGRAMS.len()).prop_map(|n| Action::Load(n.to_string(), None)),
     ]
 }
@@ -133,6 +163,24 @@ struct Station {
     events: Vec<Event>,
     /// The last action was refused.
     refused: bool,
+    /// What has been written at the panel and taken, by the line that shows it.
+    written: BTreeMap<String, String>,
+}
+
+/// What an action writes that nothing else does: where it is shown, and what stands there then.
+fn writes(action: &Action) -> Option<(String, String)> {
+    match action {
+        Action::Offset(OffsetColumn::Common, cell, mm) => {
+            Some((format!("offset {cell}"), format!("{:?}", Value::Number(*mm))))
+        }
+        Action::Work(system, axis, mm) => {
+            Some((format!("work {system}"), format!("(\"{}\", Number({mm:?}))", char::from(axis.to_ascii_lowercase()))))
+        }
+        Action::Variable(500, value) => {
+            Some(("variable 500".to_owned(), format!("{:?}", value.map_or(Value::Null, Value::Number))))
+        }
+        _ => None,
+    }
 }
 
 impl Station {
@@ -140,7 +188,13 @@ impl Station {
         let texts = Texts { texts: PROGRAMS.iter().map(|text| text.as_bytes().to_vec()).collect(), ..Texts::default() };
         let session = Session::new(configuration(machine("stock-vmc", None), &Setup::default()), texts);
         let watch = Watch::new(&session, true);
-        let mut station = Station { operator: Operator::new(session), watch, events: Vec::new(), refused: false };
+        let mut station = Station {
+            operator: Operator::new(session),
+            watch,
+            events: Vec::new(),
+            refused: false,
+            written: BTreeMap::new(),
+        };
         for text in 0..PROGRAMS.len() {
             station.perform(&Action::Load(text.to_string(), Some(format!("P{text}"))));
         }
@@ -148,7 +202,8 @@ impl Station {
     }
 
     fn perform(&mut self, action: &Action) {
-        let Station { operator, watch, events, refused } = self;
+        let Station { operator, watch, events, refused, written } = self;
+        let moving = operator.session.is_moving();
         *refused = false;
         let mut tell = |session: &mut Session<Texts>, said: Said| match said {
             Said::Event(event) => {
@@ -161,7 +216,9 @@ impl Station {
         };
         let (from, dead) =
             (operator.session.position(), operator.session.emergency_stop() || !operator.session.is_powered());
+        let before = operator.session.time();
         operator.perform(action, &mut tell).expect("texts in memory can be read");
+        assert!(operator.session.time() >= before, "time runs on: {action}");
         let may_move = match action {
             // What is refused in it is an action that had to wait.
             Action::Run(_) => !dead,
@@ -172,6 +229,12 @@ impl Station {
         };
         let to = operator.session.position();
         let moved = from.iter().zip(to).any(|(from, to)| (from - to).abs() > 1e-6);
+        match writes(action) {
+            // It may wait, and be refused then.
+            Some((shown, _)) if moving => drop(written.remove(&shown)),
+            Some((shown, value)) if !*refused => drop(written.insert(shown, value)),
+            _ => {}
+        }
         assert!(may_move || !moved, "no motion without a cause: {action}, {from:?} to {to:?}");
     }
 
@@ -208,6 +271,7 @@ const TIDY: &[&str] = &[
     "release",
     "input EOP on",
     "input RWD on",
+    "fault fin never",
     "switch single-block off",
     "switch machine-lock off",
     "switch z-cancel off",
@@ -228,6 +292,10 @@ proptest! {
         prop_assert_eq!(station.operator.session.interpreter().read_state().machine, counts, "the control knows where the axes are");
         prop_assert!(station.operator.session.alarm().is_none());
         prop_assert!(!station.operator.session.is_running());
+        for (shown, value) in station.written.clone() {
+            let shows = station.shows(&shown);
+            prop_assert!(shows.contains(&value), "{} was written as {}: {}", shown, value, shows);
+        }
         // What a lock has kept back is made up for by the return to the reference point, which power-on asks for anyway.
         station.script(&["power-off", "power-on", "mode mdi", "mdi G91G28X0Y0Z0", "cycle-start", "run until idle", "mode memory", "select P0"]);
         station.events.clear();

@@ -14,8 +14,16 @@ use syntax::Cursor;
 pub const EXACTNESS_MM: f64 = 1e-9;
 
 /// Alarms that stand in no block.
-const FROM_THE_PANEL: &[Condition] =
-    &[Condition::TravelExceeded, Condition::EmergencyStop, Condition::MemoryFull, Condition::ProgramProtected];
+const FROM_THE_PANEL: &[Condition] = &[
+    Condition::TravelExceeded,
+    Condition::EmergencyStop,
+    Condition::MemoryFull,
+    Condition::ProgramProtected,
+    Condition::ServoFault,
+    Condition::LimitSwitchReached,
+    Condition::SpindleTooSlow,
+    Condition::PowerFailed,
+];
 
 /// Times in a row that the same bytes may be asked for before it counts as standing still.
 const MOST_AGAIN: u32 = 100;
@@ -198,7 +206,7 @@ impl Watch {
     pub fn see(&mut self, event: &Event, session: &Session<Texts>) {
         assert!(event.time.0.is_finite(), "{event:?}");
         // What the machine answered while something moved is told when the block waits for it.
-        if !matches!(event.kind, EventKind::Finished(_)) {
+        if !matches!(event.kind, EventKind::Finished(_) | EventKind::Waited(_)) {
             assert!(event.time.0 >= self.time, "time runs on: {} {event:?}", self.time);
             self.time = event.time.0;
         }
