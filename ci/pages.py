@@ -189,7 +189,7 @@ ACTIONS = {
     "PowerOn": "`power-on`", "PowerOff": "`power-off`", "Load": "`load`", "Select": "`select`", "Mode": "`mode`", "Type": "`mdi`",
     "CycleStart": "`cycle-start`", "FeedHold": "`feed-hold`", "Reset": "`reset`", "Key": "`key` (then as what the key does)",
     "EmergencyStop": "`emergency-stop`", "Release": "`release`", "Turn": "`switch`, `override`, `input`", "Offset": "`offset`, `work`",
-    "Parameter": "`parameter`", "Variable": "`variable`", "Fault": "`fault`", "Show": "`show`", "Run": "`run`", "Jog": "`jog`", "Step": "`step`", "Home": "`home`", "Restart": "`restart`", "Search": "`search`", "Edit": "`edit`",
+    "Parameter": "`parameter`", "Variable": "`variable`", "Fault": "`fault`", "Show": "`show`", "Run": "`run`", "Jog": "`jog`", "Step": "`step`", "Home": "`home`", "Restart": "`restart`", "Search": "`search`", "Edit": "`edit`", "Tape": "`tape`, `verify`",
 }
 OPERATING = """The control is always in one of the nine states below. An action that it takes there is marked *yes*; any other is refused, changes
 nothing, and the letter says why. `cyclestart operate` answers from the same table.

@@ -152,6 +152,12 @@ fn show<L: Library>(session: &Session<L>, plan: &RestartPlan) -> Value {
 fn not_restored<L: Library>(session: &Session<L>, plan: &RestartPlan) -> Vec<String> {
     let mut lines = Vec::new();
     let axes = &session.configuration().machine.axes;
+    for axis in plan.uncounted.iter() {
+        if let Some(axis) = axes.get(axis) {
+            let letter = char::from(axis.letter);
+            lines.push(format!("{letter} has been moved without being counted: the restart counts it anew"));
+        }
+    }
     for axis in plan.unplaced.iter() {
         if let Some(axis) = axes.get(axis) {
             let letter = char::from(axis.letter);

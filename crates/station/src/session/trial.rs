@@ -5,7 +5,7 @@
 
 use base::{AxisSet, Place};
 use dialect::GroupCodes;
-use machine::{Event, EventKind, Fin};
+use machine::{Event, EventKind, Fin, Machine};
 use meaning::{BarrierKind, CodeLine, CodeOut, Quantity, SetValue};
 
 use super::rehearsal::Lent;
@@ -57,6 +57,8 @@ pub struct Way {
     pub placed: AxisSet,
     /// What it asked of the machine.
     pub asked: Asked,
+    /// The highest place of the tool's axis, machine coordinates.
+    pub highest: f64,
 }
 
 impl Way {
@@ -142,6 +144,8 @@ impl<L: Library> Session<L> {
         way: &mut Way,
     ) -> (u32, Option<String>) {
         let mut passes = 0;
+        let tool_axis = self.tool_axis();
+        way.highest = f64::NEG_INFINITY;
         for _ in 0..MOST_BLOCKS {
             let begins = match target.at {
                 At::Line(line) => trial.line_begins().filter(|place| place.line == line),
@@ -152,6 +156,9 @@ impl<L: Library> Session<L> {
                 if pass == Some(passes) {
                     return (passes, None);
                 }
+            }
+            if let Some(z) = tool_axis {
+                way.highest = way.highest.max(trial.machine.position()[z]);
             }
             if let Some(command) = trial.interpreter().executing() {
                 way.placed = way.placed.or(command.absolute).or(command.returned);
@@ -184,7 +191,7 @@ impl<L: Library> Session<L> {
     /// A session that stands where this one stands and begins the selected program at its head.
     fn begin_trial(&self) -> Session<Lent> {
         let mut trial = self.begin_rehearsal();
-        trial.met = None;
+        (trial.met, trial.reader) = (None, None);
         trial.asked = Some(Asked::default());
         (trial.pulled, trial.between_blocks) = (false, true);
         trial.codes.clear();
@@ -199,6 +206,12 @@ impl<L: Library> Session<L> {
         trial.interpreter_mut().tell_variables(true);
         let now = trial.time();
         trial.machine.set_spindle_weak(false, now, &mut trial.events);
+        // What was moved without being counted is counted anew: the place is one on the machine.
+        let axes = self.configuration.machine.travel().axes;
+        trial.lock.settle(axes);
+        trial.settle_counters();
+        let position = trial.counted_position();
+        trial.interpreter_mut().moved_by_hand(&position, AxisSet::NONE);
         trial.events.clear();
         trial.handed_out = 0;
         trial.start_over();
