@@ -162,6 +162,8 @@ impl<L: Shelf> Operator<L> {
         if let Err(why) = outcome {
             let action = written.map_or_else(|| action.to_string(), str::to_owned);
             tell(&mut self.session, Said::Refused { action, why });
+        } else if restart::is_dropped_by(action) {
+            self.restart = None;
         }
         if self.is_busy() { Ok(()) } else { self.settle(tell) }
     }
@@ -191,9 +193,6 @@ impl<L: Shelf> Operator<L> {
                     return Ok(Ok(()));
                 }
             }
-        }
-        if restart::is_dropped_by(action) {
-            self.restart = None;
         }
         let session = &mut self.session;
         match action {
