@@ -105,6 +105,16 @@ fn write() -> impl Strategy<Value = Action> {
     ]
 }
 
+/// Programs, and where they are taken up.
+const TAKEN_UP: &[&[&str]] = &[
+    &["select P1", "restart line 4"],
+    &["select P1", "restart line 5"],
+    &["select P3", "restart O5 line 9 pass 2"],
+    &["select P3", "restart line 3"],
+    &["select P4", "restart line 2"],
+    &["select P9", "restart line 4"],
+];
+
 /// What breaks.
 fn written() -> impl Strategy<Value = Action> {
     let lines = [
@@ -326,6 +336,32 @@ proptest! {
         let kinds: Vec<EventKind> = station.events.iter().map(|event| event.kind).collect();
         prop_assert!(matches!(kinds.first(), Some(EventKind::Start(_))), "{:?}", kinds);
         prop_assert!(kinds.iter().any(|kind| matches!(kind, EventKind::End { .. })), "{:?}", kinds);
+        prop_assert_eq!(&station.operator.session.position()[..3], &[1.0, 2.0, 3.0]);
+    }
+
+    /// On its way to where a program is taken up, too.
+    #[test]
+    fn a_restart_can_be_broken_into(
+        target in select(TAKEN_UP.to_vec()),
+        moved in any::<bool>(),
+        period in 0.0f64..3.0,
+        actions in prop::collection::vec(action(), 0..12),
+    ) {
+        let mut station = Station::new();
+        if moved {
+            station.script(&["mode jog", "jog X + for 0.5", "jog Z - for 0.5", "mode memory"]);
+        }
+        station.script(target);
+        prop_assert!(!station.refused, "{:?}", target);
+        station.script(&["restart confirm", "cycle-start"]);
+        prop_assert!(!station.refused, "{:?}", target);
+        station.perform(&Action::Run(Until::Seconds(period)));
+        actions.iter().for_each(|action| station.perform(action));
+        station.script(TIDY);
+        let counts = station.operator.session.counted_position().map(|mm| (mm * 1e6).round());
+        prop_assert_eq!(station.operator.session.interpreter().read_state().machine, counts, "the control knows where the axes are");
+        prop_assert!(!station.operator.session.is_running());
+        station.script(&["power-off", "power-on", "mode mdi", "mdi G91G28X0Y0Z0", "cycle-start", "run until idle", "mode memory", "load 0 as P0", "select P0", "cycle-start", "run until idle"]);
         prop_assert_eq!(&station.operator.session.position()[..3], &[1.0, 2.0, 3.0]);
     }
 
