@@ -30,14 +30,26 @@ pub(super) struct TapeReader {
 }
 
 impl TapeReader {
-    /// A block of the tape is to begin now: when all of it has been read.
-    fn read(&mut self, place: &Place, now: f64) -> f64 {
-        let room = if self.begun.len() >= self.depth { self.begun.pop_front() } else { None };
-        let end = place.block.end() + 1;
-        self.since = self.since.max(room.unwrap_or(self.since)) + end.abs_diff(self.at) as f64 / self.speed;
-        self.at = end;
+    /// True for a block of this tape.
+    fn reads(&self, place: &Place) -> bool {
+        place.source == self.source && place.line > 0
+    }
+
+    /// When all of a block of the tape has been read.
+    fn read_at(&self, place: &Place) -> f64 {
+        let room = if self.begun.len() >= self.depth { self.begun.front().copied() } else { None };
+        let rows = (place.block.end() + 1).abs_diff(self.at);
+        self.since.max(room.unwrap_or(self.since)) + rows as f64 / self.speed
+    }
+
+    /// A block of the tape begins now.
+    fn begin(&mut self, place: &Place, now: f64) {
+        self.since = self.read_at(place);
+        self.at = place.block.end() + 1;
+        if self.begun.len() >= self.depth {
+            self.begun.pop_front();
+        }
         self.begun.push_back(now.max(self.since));
-        self.since
     }
 }
 
@@ -54,28 +66,33 @@ impl<L: Library> Session<L> {
         self.reader = Some(TapeReader { source, speed, depth: depth.max(1), at, since, begun, ahead: 0.0 });
     }
 
-    /// A block begins: if it comes from the tape, not before it has been read.
-    pub(super) fn wait_for_tape(&mut self) {
+    /// True if the block that is next has not been read when the time that is given is over.
+    pub(super) fn waits_for_tape(&mut self) -> bool {
+        if self.reader.is_none() || !self.between_blocks || self.met.is_some() || self.is_moving() {
+            return false;
+        }
+        let (place, now) = (self.motion.upstream.current().place, self.machine.time().0);
+        let read =
+            self.reader.as_ref().filter(|reader| reader.reads(&place)).map_or(now, |reader| reader.read_at(&place));
+        let limit = self.deadline.map_or(f64::INFINITY, |deadline| deadline.0).min(self.next_trip()).max(now);
+        let until = read.min(limit);
+        if until > now {
+            self.machine.stand_until(Seconds(until), &mut self.events);
+            self.tell(place, EventKind::Waited(Seconds(until - now)));
+        }
+        read > limit
+    }
+
+    /// A block begins, perhaps one of the tape. In a rehearsal the axes come to stand before one that is not there yet.
+    pub(super) fn take_from_tape(&mut self) {
         let place = self.motion.upstream.current().place;
-        let Some(reader) = &mut self.reader else { return };
-        if place.source != reader.source || place.line == 0 {
-            return;
-        }
+        let Some(reader) = self.reader.as_mut().filter(|reader| reader.reads(&place)) else { return };
         let now = self.machine.time().0 - reader.ahead;
-        let read = reader.read(&place, now);
-        if read <= now {
-            return;
-        }
-        match &mut self.met {
-            // The axes come to stand before a block that will not be there.
-            Some(met) => {
-                reader.ahead -= read - now;
-                met.push_back(Ahead::Rest);
-            }
-            None => {
-                self.machine.stand_until(Seconds(read), &mut self.events);
-                self.tell(place, EventKind::Waited(Seconds(read - now)));
-            }
+        let late = reader.read_at(&place) - now;
+        reader.begin(&place, now);
+        if let (Some(met), true) = (&mut self.met, late > 0.0) {
+            reader.ahead -= late;
+            met.push_back(Ahead::Rest);
         }
     }
 
