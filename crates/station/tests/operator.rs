@@ -256,6 +256,7 @@ impl Station {
             Action::Run(_) => !dead,
             Action::Jog(..) | Action::Step(..) => !dead && !*refused,
             // The axes come to stand.
+            Action::Fault(_) => true,
             Action::FeedHold | Action::Reset | Action::EmergencyStop | Action::PowerOff => !*refused,
             _ => false,
         };
