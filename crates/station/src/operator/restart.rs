@@ -163,7 +163,7 @@ fn not_restored<L: Library>(session: &Session<L>, plan: &RestartPlan) -> Vec<Str
         if let Some(axis) = axes.get(axis) {
             let letter = char::from(axis.letter);
             lines.push(format!(
-                "the program does not place {letter} before this block: it counts from where {letter} stands now"
+                "the program does not place {letter} by itself before this block: it counts from where {letter} stands, which must be where the program begins"
             ));
         }
     }

@@ -137,7 +137,7 @@ impl<L: Library> Session<L> {
             give: self.codes_to_give(trial, way),
             unknown: way.m_codes.iter().copied().filter(|code| !known(code)).collect(),
             uncounted: self.lock.astray(axes),
-            unplaced: axes.without(way.placed),
+            unplaced: axes.without(way.placed).or(way.counted_from),
             way: way.clone(),
         }
     }

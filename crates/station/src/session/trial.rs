@@ -6,7 +6,7 @@
 use base::{AxisSet, Place};
 use dialect::GroupCodes;
 use machine::{Event, EventKind, Fin, Machine};
-use meaning::{BarrierKind, CodeLine, CodeOut, Quantity, SetValue};
+use meaning::{BarrierKind, CodeLine, CodeOut, Quantity, SetValue, Side};
 
 use super::rehearsal::Lent;
 use super::{Session, Step};
@@ -55,6 +55,8 @@ pub struct Way {
     pub written: Vec<SetValue>,
     /// Axes that it has placed absolutely or returned to their reference point.
     pub placed: AxisSet,
+    /// Axes whose coordinates it has set where they stood, before it had placed them.
+    pub counted_from: AxisSet,
     /// What it asked of the machine.
     pub asked: Asked,
     /// The highest place of the tool's axis, machine coordinates.
@@ -74,6 +76,9 @@ impl Way {
                 }
             },
             EventKind::Set(value) => {
+                if let SetValue::WorkOrigin { axes, .. } | SetValue::Shift { axes, .. } = value {
+                    self.counted_from = self.counted_from.or(axes.without(self.placed));
+                }
                 // Of a variable the last value counts.
                 if let SetValue::Variable { number, .. } = value {
                     let same = |set: &SetValue| matches!(set, SetValue::Variable { number: own, .. } if *own == number);
@@ -144,7 +149,8 @@ impl<L: Library> Session<L> {
         way: &mut Way,
     ) -> (u32, Option<String>) {
         let mut passes = 0;
-        let tool_axis = self.tool_axis();
+        let (tool_axis, axes) = (self.tool_axis(), self.configuration.machine.travel().axes);
+        let mut was = (trial.interpreter().executing_state().transform, Side::default());
         way.highest = f64::NEG_INFINITY;
         for _ in 0..MOST_BLOCKS {
             let begins = match target.at {
@@ -161,7 +167,15 @@ impl<L: Library> Session<L> {
                 way.highest = way.highest.max(trial.machine.position()[z]);
             }
             if let Some(command) = trial.interpreter().executing() {
-                way.placed = way.placed.or(command.absolute).or(command.returned);
+                // What is turned, mirrored or compensated from where the tool stands depends on that place.
+                let shaping = (command.after.transform, command.side());
+                if shaping != was {
+                    way.counted_from = way.counted_from.or(axes.without(way.placed));
+                    was = shaping;
+                }
+                // A cycle comes back to where the tool stood before it.
+                let comes_back = tool_axis.filter(|_| command.levels().is_some()).map_or(AxisSet::NONE, AxisSet::only);
+                way.placed = way.placed.or(command.absolute.without(comes_back)).or(command.returned);
             }
             match trial.next() {
                 Step::Event(event) => way.take(&event),
