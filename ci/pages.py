@@ -189,7 +189,7 @@ ACTIONS = {
     "PowerOn": "`power-on`", "PowerOff": "`power-off`", "Load": "`load`", "Select": "`select`", "Mode": "`mode`", "Type": "`mdi`",
     "CycleStart": "`cycle-start`", "FeedHold": "`feed-hold`", "Reset": "`reset`", "Key": "`key` (then as what the key does)",
     "EmergencyStop": "`emergency-stop`", "Release": "`release`", "Turn": "`switch`, `override`, `input`", "Offset": "`offset`, `work`",
-    "Parameter": "`parameter`", "Variable": "`variable`", "Fault": "`fault`", "Show": "`show`", "Run": "`run`", "Jog": "`jog`", "Step": "`step`", "Home": "`home`", "Restart": "`restart`", "Search": "`search`", "Edit": "`edit`",
+    "Parameter": "`parameter`", "Variable": "`variable`", "Fault": "`fault`", "Show": "`show`", "Run": "`run`", "Jog": "`jog`", "Step": "`step`", "Home": "`home`", "Restart": "`restart`", "Search": "`search`", "Edit": "`edit`", "Tape": "`tape`, `verify`",
 }
 OPERATING = """The control is always in one of the nine states below. An action that it takes there is marked *yes*; any other is refused, changes
 nothing, and the letter says why. `cyclestart operate` answers from the same table.
@@ -213,6 +213,31 @@ nothing. `emergency-stop` does not wait for a `run` before it; what stands betwe
 late its periods came. A computer that stops for more than half a second does not make up for it."""
 
 
+PROGRAMS = """## Programs
+
+**Search.** `search N50` puts the pointer on the block with that number in the selected program: the next one behind the pointer, then from
+the head. `search O1234` selects a program. Nothing is executed, and codes, offsets and places are as they stand: CYCLE START begins there
+as if the blocks before it were not in the program.
+
+**Restart in mid-program.** `restart N50`, `restart line 12`, `restart O20 N5 pass 3` (a block that is executed several times wants the pass)
+runs the selected program from its head to the block, without moving anything, and shows what it would be like there: codes in force,
+F S T B H D, the place where the block before ends, the axes' way there (`approach`), the codes that the machine still wants (`give`), and what
+cannot be restored (`not_restored`). Those codes are given by MDI; `restart confirm` takes the rest as shown, and CYCLE START begins. The axes
+go to the place one after the other at the jog speed, Z off the work first and down last (policy `restart-approach`), FEED HOLD stops them, and the
+program runs on as if it had never stopped: in the middle of compensation, cycles, subprograms and loops. What the program writes on the way
+(offsets, kept variables) is written once more, and named. It is refused if the program does not come to the block, raises an alarm before it,
+or if a lock switch is on; what was confirmed no longer counts if anything has changed that it depends on. RESET drops it.
+
+**Edit.** In mode edit a cursor stands on a word of the selected program; `show program` shows both. `edit top`, `edit next`, `edit back`,
+`edit line 12`, `edit find X10.` and `edit find X` (any X) move it. `edit insert G04 P500;` puts words in behind it (`;` ends a block),
+`edit alter X12.` puts them in its place, `edit delete` and `edit delete block` erase, `edit new O1234` and `edit delete program O1234` make and delete
+programs. With `switch edit-lock on` nothing in memory is changed; a protected program raises its alarm. The program then stands at its head.
+
+**Tape.** `tape FILE` puts a tape into the reader. In mode tape CYCLE START runs it, whatever is selected in memory; without one, the file from which
+the selected program was loaded. `[tape] speed` in the machine file is the reader's, in characters a second: a block that has not been read in time
+is waited for. `verify` (modes edit and tape) compares the tape with the programs in memory and names the first block that differs."""
+
+
 def operating(controls: list[Control]) -> str:
     """The page of the station's table, from the table itself."""
     code = (ROOT / "crates" / "station" / "src" / "operator" / "table.rs").read_text(encoding="utf-8")
@@ -223,6 +248,7 @@ def operating(controls: list[Control]) -> str:
     lines = ["# What the control takes when", "", "Made by `ci/pages.py` from the station's table.", "", OPERATING, ""]
     lines += table(["action", *STATES], [[ACTIONS[kind], *map(cell, answers.replace(",", " ").split())] for kind, answers in rows])
     lines += [f"* {letter}: {whys[why]}" for why, letter in letters.items()] + [""]
+    lines += [PROGRAMS, ""]
     for control in controls:
         station = tomllib.loads((ROOT / "controls" / control.name / "station.toml").read_text(encoding="utf-8"))
         lines += [f"## Modes of {control.head['title']}", ""]

@@ -111,6 +111,8 @@ pub struct MachineFile {
     pub magazine: MagazineFacts,
     /// What is wired to the control's inputs.
     pub wiring: Wiring,
+    /// Characters that the tape reader reads in a second; 0 is as fast as they are wanted.
+    pub tape_speed: f64,
     /// How the axes that turn move the tip of the tool; `None` if the builder does not say.
     pub kinematics: Option<Kinematics>,
 }
@@ -190,6 +192,7 @@ fn machine(root: &mut Table) -> MachineFile {
         eop: t.strings("EOP").unwrap_or_else(default_eop),
         rwd: t.strings("RWD").unwrap_or_else(default_rwd),
     });
+    let tape_speed = root.table("tape", |t| not_negative(t, "speed", 0.0)).unwrap_or_default();
     let magazine = root.table("magazine", magazine).unwrap_or_default();
     let kinematics = root.table("kinematics", |t| kinematics(t, &axes)).flatten();
     let Functions { codes, times, handshake, b_axis } = match functions {
@@ -208,6 +211,7 @@ fn machine(root: &mut Table) -> MachineFile {
         spindle,
         magazine,
         kinematics,
+        tape_speed,
         wiring: wiring.unwrap_or_else(|| Wiring { eop: default_eop(), rwd: default_rwd() }),
     }
 }

@@ -134,6 +134,10 @@ pub enum Action {
     Search(String),
     /// `edit …`
     Edit(Edit),
+    /// `tape FILE`: a tape is put into the reader
+    Tape(String),
+    /// `verify [O1234]`: the tape in the reader is compared with memory
+    Verify(Option<String>),
 }
 
 /// How a script writes the offset's cell.
@@ -220,6 +224,9 @@ impl fmt::Display for Action {
             Action::Restart(target) => write!(f, "restart {target}"),
             Action::Search(wanted) => write!(f, "search {wanted}"),
             Action::Edit(edit) => write!(f, "edit {edit}"),
+            Action::Tape(file) => write!(f, "tape {file}"),
+            Action::Verify(None) => f.write_str("verify"),
+            Action::Verify(Some(name)) => write!(f, "verify {name}"),
             Action::ConfirmRestart => f.write_str("restart confirm"),
         }
     }

@@ -6,6 +6,7 @@ mod lasting;
 mod restart;
 mod search;
 mod table;
+mod tape;
 mod typing;
 mod write;
 
@@ -78,6 +79,8 @@ pub struct Operator<L> {
     restart: Option<restart::Asked>,
     /// The cursor of the edit display, a place in the selected program's text.
     edit_at: usize,
+    /// The tape in the reader: its name as a program, and its text.
+    tape: Option<(String, SourceId)>,
 }
 
 impl<L: Library> Operator<L> {
@@ -108,6 +111,7 @@ impl<L: Shelf> Operator<L> {
             by_the_clock: false,
             restart: None,
             edit_at: 0,
+            tape: None,
         }
     }
 
@@ -158,6 +162,8 @@ impl<L: Shelf> Operator<L> {
         if let Err(why) = outcome {
             let action = written.map_or_else(|| action.to_string(), str::to_owned);
             tell(&mut self.session, Said::Refused { action, why });
+        } else if restart::is_dropped_by(action) {
+            self.restart = None;
         }
         if self.is_busy() { Ok(()) } else { self.settle(tell) }
     }
@@ -188,9 +194,6 @@ impl<L: Shelf> Operator<L> {
                 }
             }
         }
-        if restart::is_dropped_by(action) {
-            self.restart = None;
-        }
         let session = &mut self.session;
         match action {
             Action::PowerOn => session.power_on(),
@@ -217,6 +220,8 @@ impl<L: Shelf> Operator<L> {
             Action::Mdi(blocks) => return Ok(self.type_blocks(blocks)),
             Action::CycleStart => return Ok(self.cycle_start()),
             Action::Search(wanted) => return self.search(wanted, tell),
+            Action::Tape(file) => return self.put_in_tape(file).map(Ok),
+            Action::Verify(name) => return self.verify(name.as_deref(), tell),
             Action::Edit(edit) => return self.edit(edit),
             Action::Restart(target) => return Ok(self.ask_restart(target, tell)),
             Action::ConfirmRestart => return Ok(self.confirm_restart()),
@@ -312,13 +317,14 @@ impl<L: Shelf> Operator<L> {
             }
             self.session.start_typed();
         } else {
-            if self.selected.is_none() {
+            if self.selected.is_none() && (begins != Begins::Tape || self.tape.is_none()) {
                 return Err("no program is selected".to_owned());
             }
             if let Some(begun) = self.begin_restart() {
                 return begun;
             }
             self.session.come_back();
+            self.take_its_text(begins)?;
             match begins {
                 Begins::Tape => self.session.start_tape(),
                 _ => self.session.start(),

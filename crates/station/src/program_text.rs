@@ -85,7 +85,7 @@ impl ProgramText {
             if from.is_none() {
                 let is_it = match number {
                     Some(number) => named == Some(i64::from(number)),
-                    None => !block.rewind && !block.is_empty(),
+                    None => !block.rewind,
                 };
                 if !is_it {
                     return true;

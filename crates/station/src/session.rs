@@ -8,8 +8,10 @@ mod dwelling;
 mod execution;
 mod live;
 mod locks;
+mod pointer;
 mod rehearsal;
 mod states;
+mod tape_reader;
 mod telling;
 mod trial;
 mod trips;
@@ -73,8 +75,10 @@ pub struct Session<L> {
     by_hand: Option<by_hand::ByHand>,
     /// A dwell is under way: since when, s, stops on the way not counted in.
     dwelling: Option<f64>,
-    /// The axes go here before the program is taken up in its middle.
-    approach: Option<Point>,
+    /// The axes go here before the program is taken up in its middle; how high it has led the tool before.
+    approach: Option<(Point, f64)>,
+    /// What reads the program that runs, if it is a tape.
+    reader: Option<tape_reader::TapeReader>,
     /// In a trial: what the program has asked.
     asked: Option<trial::Asked>,
     /// From one setpoint to the next, s.
@@ -175,6 +179,7 @@ impl<L: Library> Session<L> {
             by_hand: None,
             dwelling: None,
             approach: None,
+            reader: None,
             asked: None,
             servo_period: machine.limits().servo_period,
             deadline: None,
@@ -327,6 +332,7 @@ impl<L: Library> Session<L> {
     pub fn start(&mut self) {
         self.restart_rehearsal();
         if self.ended {
+            self.reader = None;
             let rewound = self.rewound;
             let interpreter = self.interpreter_mut();
             if rewound {
@@ -345,8 +351,11 @@ impl<L: Library> Session<L> {
     /// CYCLE START in tape mode: as [`Session::start`], and a tape that stands in its middle is read on behind the next
     /// end of block while LABEL SKIP is on.
     pub fn start_tape(&mut self) {
-        let skips = self.ended && !self.rewound && self.label_skip;
+        let (begins, skips) = (self.ended, self.ended && !self.rewound && self.label_skip);
         self.start();
+        if begins {
+            self.load_reader();
+        }
         self.label_skip = false;
         if skips {
             self.interpreter_mut().skip_label();
@@ -358,25 +367,6 @@ impl<L: Library> Session<L> {
         self.rewound = true;
         self.ended = true;
         self.start();
-    }
-
-    /// The selected program goes on at this block of its text, everything else as it stands.
-    pub fn point_at(&mut self, block: syntax::Cursor) {
-        self.come_back();
-        self.leave_program();
-        self.interpreter_mut().go_to_block(block);
-        (self.pulled, self.between_blocks, self.told) = (false, true, None);
-        (self.rewound, self.ended) = (false, true);
-    }
-
-    /// True if CYCLE START would begin the selected program at its head.
-    pub fn stands_at_head(&self) -> bool {
-        self.rewound
-    }
-
-    /// The key EDIT LOCK is on.
-    pub fn is_edit_locked(&self) -> bool {
-        self.switches.edit_lock
     }
 
     /// Turns a switch.

@@ -105,7 +105,17 @@ fn write() -> impl Strategy<Value = Action> {
     ]
 }
 
-/// What breaks, and what is done with programs.
+/// Programs, and where they are taken up.
+const TAKEN_UP: &[&[&str]] = &[
+    &["select P1", "restart line 4"],
+    &["select P1", "restart line 5"],
+    &["select P3", "restart O5 line 9 pass 2"],
+    &["select P3", "restart line 3"],
+    &["select P4", "restart line 2"],
+    &["select P9", "restart line 4"],
+];
+
+/// What breaks.
 fn written() -> impl Strategy<Value = Action> {
     let lines = [
         "fault fin never",
@@ -117,19 +127,40 @@ fn written() -> impl Strategy<Value = Action> {
         "fault power",
         "input FIN on",
         "input FIN off",
-        "search N7",
-        "search P2",
-        "restart N8",
-        "restart line 3",
-        "restart confirm",
-        "edit insert X2.",
-        "edit delete",
-        "edit find G00",
     ];
     let read = lines.iter().filter_map(|line| read_action(line).ok()).collect::<Vec<_>>();
-    assert!(read.len() > 12, "{} of {} lines are actions", read.len(), lines.len());
+    assert!(read.len() == lines.len(), "{} of {} lines are actions", read.len(), lines.len());
     select(read)
 }
+
+/// What is done with programs beside running them.
+const OF_PROGRAMS: &[&str] = &[
+    "restart line 2",
+    "restart line 3",
+    "restart line 6 pass 2",
+    "restart N9",
+    "restart O5 line 8 pass 2",
+    "restart confirm",
+    "restart confirm",
+    "search N7",
+    "search N9",
+    "search O2",
+    "mode edit",
+    "mode edit",
+    "edit top",
+    "edit find X",
+    "edit find ;",
+    "edit insert X1. ;",
+    "edit insert G01 F100",
+    "edit alter G00",
+    "edit delete",
+    "edit delete block",
+    "edit new O77",
+    "edit delete program O3",
+    "tape 1",
+    "verify",
+    "switch edit-lock on",
+];
 
 fn action() -> impl Strategy<Value = Action> {
     let program = prop_oneof![9 => (0..PROGRAMS.len()).prop_map(|n| format!("P{n}")), 1 => Just("none".to_owned())];
@@ -154,6 +185,7 @@ fn action() -> impl Strategy<Value = Action> {
         1 => show.prop_map(Action::Show),
         2 => written(),
         1 => (0..PROGRAMS.len()).prop_map(|n| Action::Load(n.to_string(), None)),
+        6 => select(OF_PROGRAMS.to_vec()).prop_map(|line| read_action(line).expect(line)),
     ]
 }
 
@@ -224,6 +256,7 @@ impl Station {
             Action::Run(_) => !dead,
             Action::Jog(..) | Action::Step(..) => !dead && !*refused,
             // The axes come to stand.
+            Action::Fault(_) => true,
             Action::FeedHold | Action::Reset | Action::EmergencyStop | Action::PowerOff => !*refused,
             _ => false,
         };
@@ -275,6 +308,7 @@ const TIDY: &[&str] = &[
     "switch single-block off",
     "switch machine-lock off",
     "switch z-cancel off",
+    "switch edit-lock off",
     "override feed 100",
     "reset",
     "mode memory",
@@ -297,12 +331,38 @@ proptest! {
             prop_assert!(shows.contains(&value), "{} was written as {}: {}", shown, value, shows);
         }
         // What a lock has kept back is made up for by the return to the reference point, which power-on asks for anyway.
-        station.script(&["power-off", "power-on", "mode mdi", "mdi G91G28X0Y0Z0", "cycle-start", "run until idle", "mode memory", "select P0"]);
+        station.script(&["power-off", "power-on", "mode mdi", "mdi G91G28X0Y0Z0", "cycle-start", "run until idle", "mode memory", "load 0 as P0", "select P0"]);
         station.events.clear();
         station.script(&["cycle-start", "run until idle"]);
         let kinds: Vec<EventKind> = station.events.iter().map(|event| event.kind).collect();
         prop_assert!(matches!(kinds.first(), Some(EventKind::Start(_))), "{:?}", kinds);
         prop_assert!(kinds.iter().any(|kind| matches!(kind, EventKind::End { .. })), "{:?}", kinds);
+        prop_assert_eq!(&station.operator.session.position()[..3], &[1.0, 2.0, 3.0]);
+    }
+
+    /// On its way to where a program is taken up, too.
+    #[test]
+    fn a_restart_can_be_broken_into(
+        target in select(TAKEN_UP.to_vec()),
+        moved in any::<bool>(),
+        period in 0.0f64..3.0,
+        actions in prop::collection::vec(action(), 0..12),
+    ) {
+        let mut station = Station::new();
+        if moved {
+            station.script(&["mode jog", "jog X + for 0.5", "jog Z - for 0.5", "mode memory"]);
+        }
+        station.script(target);
+        prop_assert!(!station.refused, "{:?}", target);
+        station.script(&["restart confirm", "cycle-start"]);
+        prop_assert!(!station.refused, "{:?}", target);
+        station.perform(&Action::Run(Until::Seconds(period)));
+        actions.iter().for_each(|action| station.perform(action));
+        station.script(TIDY);
+        let counts = station.operator.session.counted_position().map(|mm| (mm * 1e6).round());
+        prop_assert_eq!(station.operator.session.interpreter().read_state().machine, counts, "the control knows where the axes are");
+        prop_assert!(!station.operator.session.is_running());
+        station.script(&["power-off", "power-on", "mode mdi", "mdi G91G28X0Y0Z0", "cycle-start", "run until idle", "mode memory", "load 0 as P0", "select P0", "cycle-start", "run until idle"]);
         prop_assert_eq!(&station.operator.session.position()[..3], &[1.0, 2.0, 3.0]);
     }
 

@@ -4,7 +4,7 @@
 
 use base::SourceId;
 use dialect::{ModeKind, ModeRow};
-use syntax::{Cursor, Semicolon};
+use syntax::Cursor;
 
 use super::{Loaded, Operator, memory_key, normal_name};
 use crate::catalogue::programs_in;
@@ -45,7 +45,13 @@ impl<L: Shelf> Operator<L> {
             return Ok(Err(format!("{key} is no longer in memory")));
         };
         let at = program.part_at(self.edit_at.max(program.from));
-        let Some(part) = program.parts.get(at).copied() else { return Ok(Err("the program is empty".to_owned())) };
+        // Before the first word of an empty program there is only its beginning.
+        let nothing = Part { at: program.from, len: 0, line: 1, ends: true, block: program.from };
+        let part = match program.parts.get(at) {
+            Some(part) => *part,
+            None if matches!(edit, Edit::Insert(_)) => nothing,
+            None => return Ok(Err("the program is empty".to_owned())),
+        };
         let cursor = match edit {
             Edit::Top => program.parts.first().copied(),
             Edit::Next => program.parts.get(at + 1).copied(),
@@ -100,10 +106,7 @@ impl<L: Shelf> Operator<L> {
         if let Some(wrong) = words.chars().find(|character| !(' '..='~').contains(character) || *character == '%') {
             return Err(format!("`{wrong}` is not typed at this panel"));
         }
-        let text = match grammar.semicolon {
-            Semicolon::EndOfBlock => words.replace("; ", ";").replace(" ;", ";").replace(';', "\n"),
-            Semicolon::Comment => words.to_owned(),
-        };
+        let text = words.replace("; ", ";").replace(" ;", ";").replace(';', "\n");
         let mut names = false;
         blocks_of_text(text.as_bytes(), &grammar, |block| {
             names |= block.begins_program(&grammar);
@@ -304,7 +307,7 @@ fn changed(program: &ProgramText, part: &Part, edit: &Edit, typed: &str) -> (Vec
         // Behind the end of a block the words begin the next one.
         Edit::Insert(_) if part.ends => {
             let blank = if typed.ends_with('\n') || matches!(text.get(end), None | Some(b'\n')) { "" } else { " " };
-            let lacks_end = !text[..end].ends_with(b"\n") && !text[..end].ends_with(b";");
+            let lacks_end = end > 0 && !text[..end].ends_with(b"\n") && !text[..end].ends_with(b";");
             (end, end, format!("{}{typed}{blank}", if lacks_end { "\n" } else { "" }))
         }
         Edit::Insert(_) => {

@@ -28,7 +28,6 @@ pub(super) fn is_dropped_by(action: &Action) -> bool {
             | Action::PowerOff
             | Action::Select(_)
             | Action::Load(..)
-            | Action::Restart(_)
             | Action::Key(_)
     )
 }
@@ -56,24 +55,26 @@ impl<L: Shelf> Operator<L> {
             return Err("no restart has been asked for".to_owned());
         };
         // What has been given by MDI since is no longer missing.
-        asked.plan = self.session.plan_restart(&asked.target)?;
-        if !asked.plan.give.is_empty() {
-            let codes: Vec<_> = asked.plan.give.iter().map(code).collect();
+        let plan = self.session.plan_restart(&asked.target)?;
+        if !plan.give.is_empty() {
+            let codes: Vec<_> = plan.give.iter().map(code).collect();
             return Err(format!("the machine wants {} first: give it by MDI", codes.join(" ")));
         }
-        asked.confirmed = true;
+        (asked.plan, asked.confirmed) = (plan, true);
         Ok(())
     }
 
     /// CYCLE START: the restart that was confirmed, if one was.
     pub(super) fn begin_restart(&mut self) -> Option<Result<(), String>> {
-        let Asked { target, plan, confirmed } = self.restart.take()?;
+        let Asked { target, plan, confirmed } = self.restart.as_ref()?;
         if !confirmed {
-            let why = "a restart has been asked for and not confirmed; RESET drops it".to_owned();
-            self.restart = Some(Asked { target, plan, confirmed });
-            return Some(Err(why));
+            return Some(Err("a restart has been asked for and not confirmed; RESET drops it".to_owned()));
         }
-        Some(self.session.restart(&target, &plan))
+        let begun = self.session.restart(target, plan);
+        if begun.is_ok() {
+            self.restart = None;
+        }
+        Some(begun)
     }
 
     fn refuse_restart(&self) -> Result<(), String> {
@@ -152,11 +153,17 @@ fn show<L: Library>(session: &Session<L>, plan: &RestartPlan) -> Value {
 fn not_restored<L: Library>(session: &Session<L>, plan: &RestartPlan) -> Vec<String> {
     let mut lines = Vec::new();
     let axes = &session.configuration().machine.axes;
+    for axis in plan.uncounted.iter() {
+        if let Some(axis) = axes.get(axis) {
+            let letter = char::from(axis.letter);
+            lines.push(format!("{letter} has been moved without being counted: the restart counts it anew"));
+        }
+    }
     for axis in plan.unplaced.iter() {
         if let Some(axis) = axes.get(axis) {
             let letter = char::from(axis.letter);
             lines.push(format!(
-                "the program does not place {letter} before this block: it counts from where {letter} stands now"
+                "the program does not place {letter} by itself before this block: it counts from where {letter} stands, which must be where the program begins"
             ));
         }
     }

@@ -85,6 +85,8 @@ enum Kind {
     /// Sequence-number and program search.
     Search,
     Edit,
+    /// The tape reader.
+    Tape,
 }
 
 fn kind(action: &Action) -> Kind {
@@ -115,6 +117,7 @@ fn kind(action: &Action) -> Kind {
         Action::Restart(_) | Action::ConfirmRestart => Kind::Restart,
         Action::Search(_) => Kind::Search,
         Action::Edit(_) => Kind::Edit,
+        Action::Tape(_) | Action::Verify(_) => Kind::Tape,
     }
 }
 
@@ -195,6 +198,7 @@ const TABLE: &[(Kind, [Answer; SITUATIONS])] = &[
     (Kind::Restart,       [OFF,       PRESSED,    ALARM,        GO,           NO_START,     MOVES,        RUNS,         STOPPED,      STOPPED]),
     (Kind::Search,        [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
     (Kind::Edit,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::Tape,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
 ];
 
 /// True for a mode in which the axes are moved by hand.
@@ -241,6 +245,6 @@ mod tests {
         for (index, (kind, _)) in TABLE.iter().enumerate() {
             assert_eq!(TABLE.iter().position(|(other, _)| other == kind), Some(index), "{kind:?}");
         }
-        assert_eq!(TABLE.len(), Kind::Edit as usize + 1);
+        assert_eq!(TABLE.len(), Kind::Tape as usize + 1);
     }
 }

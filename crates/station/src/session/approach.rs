@@ -27,6 +27,8 @@ pub struct RestartPlan {
     pub feed: f64,
     /// S, T, B, H and D in force.
     pub words: [u32; 5],
+    /// Where the axes stand, machine coordinates.
+    pub from: Point,
     /// Where the block before ends, machine coordinates.
     pub to: Point,
     /// The same in the work system in force there.
@@ -37,6 +39,8 @@ pub struct RestartPlan {
     pub give: Vec<(CodeLine, u32)>,
     /// M codes of which the control does not know what they have left.
     pub unknown: Vec<u32>,
+    /// Axes that were moved without being counted: the restart counts them anew.
+    pub uncounted: AxisSet,
     /// Axes that the program does not place before this block.
     pub unplaced: AxisSet,
     /// What else the program has done on the way.
@@ -47,7 +51,11 @@ impl RestartPlan {
     /// True if both lead to the same block by the same way, in the same state and with the same codes.
     fn is_same(&self, other: &RestartPlan) -> bool {
         let block = |plan: &RestartPlan| (plan.place, plan.pass, plan.groups, plan.words, plan.feed);
-        block(self) == block(other) && self.to == other.to && self.legs == other.legs && self.give == other.give
+        block(self) == block(other)
+            && self.from == other.from
+            && self.to == other.to
+            && self.legs == other.legs
+            && self.give == other.give
     }
 }
 
@@ -91,25 +99,21 @@ impl<L: Library> Session<L> {
         (self.stopped, self.feed_held) = (false, false);
         (self.fixes_override, self.switched) = (trial.fixes_override, true);
         self.machine.take_area(&trial.machine);
-        self.approach = Some(confirmed.to);
+        self.lock.settle(self.configuration.machine.travel().axes);
+        self.approach = Some((confirmed.to, confirmed.way.highest));
         let start = Place { program: place.program, source: place.source, ..Place::default() };
         self.tell(start, EventKind::Start(groups));
         self.release();
         Ok(())
     }
 
-    /// Axes that a switch holds, or that stand elsewhere than the control counts, do not come to the place.
+    /// Axes that a switch holds do not come to the place.
     fn refuse_locks(&self) -> Result<(), String> {
         let switches = &self.switches;
         if switches.machine_lock || switches.z_cancel || switches.display_lock {
             return Err("a lock switch is on: the axes would not come to the place".to_owned());
         }
-        match self.lock.acts() {
-            true => {
-                Err("the axes stand elsewhere than the control counts; return them to the reference point".to_owned())
-            }
-            false => Ok(()),
-        }
+        Ok(())
     }
 
     fn plan_of(&self, arrived: &Arrived) -> RestartPlan {
@@ -126,12 +130,14 @@ impl<L: Library> Session<L> {
             groups: *groups,
             feed: state.feed.nanometres / 1e6,
             words: [state.spindle, state.tool, state.index, state.h, state.d],
+            from: self.position(),
             to,
             work: interpreter.work_position_in(state, &to),
-            legs: self.legs_to(&to),
+            legs: self.legs_to(&to, way.highest),
             give: self.codes_to_give(trial, way),
             unknown: way.m_codes.iter().copied().filter(|code| !known(code)).collect(),
-            unplaced: axes.without(way.placed),
+            uncounted: self.lock.astray(axes),
+            unplaced: axes.without(way.placed).or(way.counted_from),
             way: way.clone(),
         }
     }
@@ -181,21 +187,26 @@ impl<L: Library> Session<L> {
         codes
     }
 
+    /// The axis along which the tool leaves the work.
+    pub(super) fn tool_axis(&self) -> Option<usize> {
+        self.configuration.machine.axes.iter().position(|axis| axis.letter == LENGTH_AXIS)
+    }
+
     /// The way of the axes from where they stand: one after the other, the tool off the work first and down last.
-    fn legs_to(&self, to: &Point) -> Vec<(usize, f64)> {
+    fn legs_to(&self, to: &Point, highest: f64) -> Vec<(usize, f64)> {
         let (from, axes) = (self.position(), &self.configuration.machine.axes);
         let astray = |axis: &usize| (from[*axis] - to[*axis]).abs() > THERE;
-        let z = axes.iter().position(|axis| axis.letter == LENGTH_AXIS);
+        let z = self.tool_axis();
         let mut legs: Vec<_> =
             (0..axes.len()).filter(|axis| Some(*axis) != z && astray(axis)).map(|axis| (axis, to[axis])).collect();
         let Some(z) = z else { return legs };
         let mut at = from[z];
         let retracts = self.interpreter().fitting().policies.restart_approach == RestartApproach::Retract;
         if let (true, false, Some(&high)) = (retracts, legs.is_empty(), axes[z].reference_points.first())
-            && at < high - THERE
+            && at < high.max(highest) - THERE
         {
-            legs.insert(0, (z, high));
-            at = high;
+            at = high.max(highest);
+            legs.insert(0, (z, at));
         }
         if (at - to[z]).abs() > THERE {
             legs.push((z, to[z]));
@@ -224,8 +235,8 @@ impl<L: Library> Session<L> {
 
     /// The axes go on to where the program is taken up; false if they are there.
     pub(super) fn goes_on_approaching(&mut self) -> bool {
-        let Some(to) = self.approach else { return false };
-        let Some(&(axis, mm)) = self.legs_to(&to).first() else {
+        let Some((to, highest)) = self.approach else { return false };
+        let Some(&(axis, mm)) = self.legs_to(&to, highest).first() else {
             self.approach = None;
             return false;
         };

@@ -65,6 +65,7 @@ impl<L: Library> Session<L> {
     /// The switches that act from block to block are looked at.
     pub(super) fn begin_block(&mut self) {
         self.between_blocks = false;
+        self.take_from_tape();
         self.tell_block();
         // #3004 bit 1: the program fixes the feed override at 100 %.
         let fixes = self.interpreter().executing_state().feed_control & 2 != 0;

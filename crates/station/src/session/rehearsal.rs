@@ -131,6 +131,9 @@ impl<L: Library> Session<L> {
 
     /// Plans the move that is to be executed now.
     pub(super) fn plan(&mut self) {
+        if self.met.is_some() {
+            self.count_time_ahead();
+        }
         if let Some(met) = &mut self.met {
             let current = self.motion.current();
             let ahead = if self.machine.cannot_end(&current) { Ahead::Rest } else { Ahead::Move(current.shaped.shape) };
@@ -242,6 +245,7 @@ impl<L: Library> Session<L> {
             by_hand: None,
             dwelling: None,
             approach: None,
+            reader: self.reader.clone(),
             asked: None,
             servo_period: self.servo_period,
             deadline: None,

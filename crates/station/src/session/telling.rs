@@ -67,6 +67,10 @@ impl<L: Library> Session<L> {
             return if self.go_on_moving() { None } else { Some(Step::Idle) };
         }
         if self.pull() {
+            if self.waits_for_tape() {
+                self.pulled = true;
+                return self.has_told_all().then_some(Step::Idle);
+            }
             self.pulled = self.stands_still() || self.alarm.is_some();
             let held = self.pulled || self.live && self.takes_waiting_hold();
             if !held && self.waits_for_machine() {

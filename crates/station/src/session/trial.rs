@@ -5,8 +5,8 @@
 
 use base::{AxisSet, Place};
 use dialect::GroupCodes;
-use machine::{Event, EventKind, Fin};
-use meaning::{BarrierKind, CodeLine, CodeOut, Quantity, SetValue};
+use machine::{Event, EventKind, Fin, Machine};
+use meaning::{BarrierKind, CodeLine, CodeOut, Quantity, SetValue, Side};
 
 use super::rehearsal::Lent;
 use super::{Session, Step};
@@ -55,8 +55,12 @@ pub struct Way {
     pub written: Vec<SetValue>,
     /// Axes that it has placed absolutely or returned to their reference point.
     pub placed: AxisSet,
+    /// Axes whose coordinates it has set where they stood, before it had placed them.
+    pub counted_from: AxisSet,
     /// What it asked of the machine.
     pub asked: Asked,
+    /// The highest place of the tool's axis, machine coordinates.
+    pub highest: f64,
 }
 
 impl Way {
@@ -72,6 +76,9 @@ impl Way {
                 }
             },
             EventKind::Set(value) => {
+                if let SetValue::WorkOrigin { axes, .. } | SetValue::Shift { axes, .. } = value {
+                    self.counted_from = self.counted_from.or(axes.without(self.placed));
+                }
                 // Of a variable the last value counts.
                 if let SetValue::Variable { number, .. } = value {
                     let same = |set: &SetValue| matches!(set, SetValue::Variable { number: own, .. } if *own == number);
@@ -142,6 +149,9 @@ impl<L: Library> Session<L> {
         way: &mut Way,
     ) -> (u32, Option<String>) {
         let mut passes = 0;
+        let (tool_axis, axes) = (self.tool_axis(), self.configuration.machine.travel().axes);
+        let mut was = (trial.interpreter().executing_state().transform, Side::default());
+        way.highest = f64::NEG_INFINITY;
         for _ in 0..MOST_BLOCKS {
             let begins = match target.at {
                 At::Line(line) => trial.line_begins().filter(|place| place.line == line),
@@ -153,8 +163,19 @@ impl<L: Library> Session<L> {
                     return (passes, None);
                 }
             }
+            if let Some(z) = tool_axis {
+                way.highest = way.highest.max(trial.machine.position()[z]);
+            }
             if let Some(command) = trial.interpreter().executing() {
-                way.placed = way.placed.or(command.absolute).or(command.returned);
+                // What is turned, mirrored or compensated from where the tool stands depends on that place.
+                let shaping = (command.after.transform, command.side());
+                if shaping != was {
+                    way.counted_from = way.counted_from.or(axes.without(way.placed));
+                    was = shaping;
+                }
+                // A cycle comes back to where the tool stood before it.
+                let comes_back = tool_axis.filter(|_| command.levels().is_some()).map_or(AxisSet::NONE, AxisSet::only);
+                way.placed = way.placed.or(command.absolute.without(comes_back)).or(command.returned);
             }
             match trial.next() {
                 Step::Event(event) => way.take(&event),
@@ -184,7 +205,7 @@ impl<L: Library> Session<L> {
     /// A session that stands where this one stands and begins the selected program at its head.
     fn begin_trial(&self) -> Session<Lent> {
         let mut trial = self.begin_rehearsal();
-        trial.met = None;
+        (trial.met, trial.reader) = (None, None);
         trial.asked = Some(Asked::default());
         (trial.pulled, trial.between_blocks) = (false, true);
         trial.codes.clear();
@@ -199,6 +220,12 @@ impl<L: Library> Session<L> {
         trial.interpreter_mut().tell_variables(true);
         let now = trial.time();
         trial.machine.set_spindle_weak(false, now, &mut trial.events);
+        // What was moved without being counted is counted anew: the place is one on the machine.
+        let axes = self.configuration.machine.travel().axes;
+        trial.lock.settle(axes);
+        trial.settle_counters();
+        let position = trial.counted_position();
+        trial.interpreter_mut().moved_by_hand(&position, AxisSet::NONE);
         trial.events.clear();
         trial.handed_out = 0;
         trial.start_over();

@@ -87,6 +87,8 @@ impl<L: Library> Session<L> {
 
     /// RESET: what a script broke is whole again.
     pub(super) fn mend(&mut self) {
+        // A switch that an axis has run onto while it came to stand for the RESET stops nothing any more.
+        self.tripped = None;
         let own = self.configuration.machine.limit_switches().len();
         let now = self.time();
         self.machine.keep_switches(own, now, &mut self.events);
