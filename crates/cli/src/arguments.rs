@@ -234,6 +234,9 @@ pub struct OperateArguments {
     /// The machine's answers to codes are events too
     #[arg(long)]
     pub io: bool,
+    /// Keep the control's memory in this folder from one call to the next; without it memory begins empty and is forgotten
+    #[arg(long, value_name = "DIR")]
+    pub memory: Option<PathBuf>,
     /// Time passes by the clock; lines on standard input act as they come
     #[arg(long)]
     pub realtime: bool,
