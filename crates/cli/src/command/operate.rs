@@ -19,7 +19,7 @@ use keeping::Keeping;
 use realtime::Hands;
 
 mod history;
-mod keeping;
+pub mod keeping;
 mod realtime;
 
 /// What a script's performance writes, and to where.

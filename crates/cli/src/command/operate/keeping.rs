@@ -13,6 +13,7 @@ use station::{
 use syntax::Cursor;
 
 use super::history::History;
+use crate::command::memory::holder;
 use crate::failure::Failure;
 use crate::texts::Texts;
 
@@ -55,8 +56,7 @@ const CELLS: [(Kind, CellKind); 4] = [
 impl Keeping {
     /// Opens the memory in a folder for this control.
     pub fn open(folder: &Path, control: &Control) -> Result<Keeping, Failure> {
-        let holder = format!("cyclestart, process {}", std::process::id());
-        let store = Store::open(folder, &holder).map_err(Failure::call)?;
+        let store = Store::open(folder, &holder()).map_err(Failure::call)?;
         let content = store.content().map_err(Failure::call)?;
         let (owner, name) = (content.values.get(&(Kind::State, CONTROL.to_owned())), &control.name);
         if let Some(owner) = owner.filter(|owner| *owner != name) {
@@ -96,7 +96,7 @@ impl Keeping {
         for program in &content.programs {
             let name = &program.name;
             let source = operator.session.library_mut().hold(name, program.text.clone())?;
-            let heads = state(&format!("{PROGRAMS}{name}")).map_or_else(Vec::new, |text| heads_of(text));
+            let heads = state(&format!("{PROGRAMS}{name}")).map_or_else(Vec::new, |text| Keeping::heads_of(text));
             operator.put_back(name, source, heads).map_err(Failure::call)?;
             self.texts.insert(source, name.clone());
         }
@@ -222,6 +222,17 @@ impl Keeping {
         Ok(())
     }
 
+    /// The programs of a text, as they are listed.
+    pub fn heads_of(text: &str) -> Vec<(String, Cursor)> {
+        let head = |line: &str| {
+            let mut words = line.splitn(4, ' ');
+            let mut number = || words.next()?.parse::<u64>().ok();
+            let (offset, line, line_start) = (number()?, number()?, number()?);
+            Some((words.next()?.to_owned(), Cursor { offset, line, line_start, skipping: false }))
+        };
+        text.lines().filter_map(head).collect()
+    }
+
     /// True if the memory lists the programs that the station has.
     fn lists(&self, operator: &Operator<Texts>) -> bool {
         let mut now = operator.kept_programs();
@@ -281,16 +292,6 @@ fn heads_text(programs: &[Listed], source: SourceId) -> String {
     let own = programs.iter().filter(|(_, of, _)| *of == source);
     let lines = own.map(|(name, _, head)| format!("{} {} {} {name}", head.offset, head.line, head.line_start));
     lines.collect::<Vec<_>>().join("\n")
-}
-
-fn heads_of(text: &str) -> Vec<(String, Cursor)> {
-    let head = |line: &str| {
-        let mut words = line.splitn(4, ' ');
-        let mut number = || words.next()?.parse::<u64>().ok();
-        let (offset, line, line_start) = (number()?, number()?, number()?);
-        Some((words.next()?.to_owned(), Cursor { offset, line, line_start, skipping: false }))
-    };
-    text.lines().filter_map(head).collect()
 }
 
 /// The block that is executed: line and sequence number, offset of the line, of the block and its length, whether it
