@@ -1,6 +1,7 @@
 //! The command line: every command, every option, its help and an example.
 
 mod diff;
+mod memory;
 mod plot;
 
 use std::path::{Path, PathBuf};
@@ -8,6 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use diff::{DiffArguments, DiffFormat};
+pub use memory::{ExportArguments, ExportForm, HistoryArguments, ImportArguments, MemoryCommand};
 pub use plot::{LayerArgument, PlotArguments, ViewArgument};
 
 /// Executes part programs exactly as the machining-centre controls they were written for would.
@@ -51,6 +53,10 @@ pub enum Command {
         after_help = "Example:\n  printf 'load part.nc as O1\\nselect O1\\ncycle-start\\nrun until stop\\nshow modal\\n' | cyclestart operate -"
     )]
     Operate(OperateArguments),
+    /// Export and import what `operate --memory` keeps, as text; print its histories
+    #[command(subcommand)]
+    #[command(after_help = "Example:\n  cyclestart memory export DIR -o backup.toml")]
+    Memory(MemoryCommand),
     /// Draw the tool path as SVG or PNG
     #[command(
         after_help = "Examples:\n  cyclestart plot part.nc -o part.svg\n  cyclestart plot part.nc --layers programmed,compensated,tool -o part.svg\n  cyclestart plot part.nc --layers speed --view plan -o speed.svg\n  cyclestart plot part.nc --layers programmed,actual --around 20,0,1 -o corner.svg\n  cyclestart plot part.nc --chart -o chart.svg"
@@ -234,6 +240,9 @@ pub struct OperateArguments {
     /// The machine's answers to codes are events too
     #[arg(long)]
     pub io: bool,
+    /// Keep the control's memory in this folder from one call to the next; without it memory begins empty and is forgotten
+    #[arg(long, value_name = "DIR")]
+    pub memory: Option<PathBuf>,
     /// Time passes by the clock; lines on standard input act as they come
     #[arg(long)]
     pub realtime: bool,

@@ -7,6 +7,7 @@ pub mod diff;
 pub mod explain;
 mod fix;
 pub mod fmt;
+pub mod memory;
 pub mod operate;
 pub mod plot;
 pub mod run;

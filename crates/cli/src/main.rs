@@ -50,6 +50,7 @@ fn run(command: Command) -> Result<bool, Failure> {
         Command::Check(arguments) => command::check::check(&arguments),
         Command::Trace(arguments) => command::trace::trace(&arguments),
         Command::Operate(arguments) => command::operate::operate(&arguments),
+        Command::Memory(command) => command::memory::memory(&command),
         Command::Tape(arguments) => command::tape::tape(&arguments),
         Command::Plot(arguments) => command::plot::plot(&arguments),
         Command::Explain(arguments) => command::explain::explain(&arguments),

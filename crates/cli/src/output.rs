@@ -23,9 +23,14 @@ impl Output {
         Output { buffer: Vec::with_capacity(2 * ENOUGH) }
     }
 
+    /// True if enough has been gathered to be written.
+    pub fn is_enough(&self) -> bool {
+        self.buffer.len() >= ENOUGH
+    }
+
     /// Writes what has been gathered, if it is enough.
     pub fn pass(&mut self) -> Result<(), Failure> {
-        if self.buffer.len() >= ENOUGH { self.flush() } else { Ok(()) }
+        if self.is_enough() { self.flush() } else { Ok(()) }
     }
 
     /// Writes what has been gathered.

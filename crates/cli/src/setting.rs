@@ -106,6 +106,25 @@ fn machine(name: &str) -> Result<MachineFile, Failure> {
 /// The configuration that the command line asks for.
 pub fn configuration(arguments: &SettingArguments) -> Result<Configuration, Failure> {
     let control = Arc::new(load(&arguments.control, arguments.controls.as_deref())?);
+    configuration_over(control, arguments, &[])
+}
+
+/// What a control's memory kept, and nothing else.
+pub fn kept_configuration(
+    control: Arc<Control>,
+    arguments: &SettingArguments,
+    kept: &Setup,
+) -> Result<Configuration, Failure> {
+    let machine = machine(arguments.machine.as_deref().unwrap_or(&control.stock_machine))?;
+    Configuration::new(control, machine, &[kept]).map_err(Failure::call)
+}
+
+/// The configuration that the command line asks for, on top of what a memory kept.
+pub fn configuration_over(
+    control: Arc<Control>,
+    arguments: &SettingArguments,
+    kept: &[&Setup],
+) -> Result<Configuration, Failure> {
     let machine = machine(arguments.machine.as_deref().unwrap_or(&control.stock_machine))?;
     let file = match &arguments.setup {
         None => Setup::default(),
@@ -116,7 +135,9 @@ pub fn configuration(arguments: &SettingArguments) -> Result<Configuration, Fail
         }
     };
     let line = setup_of(arguments, control.common_offsets)?;
-    Configuration::new(control, machine, &[&file, &line]).map_err(Failure::call)
+    let mut setups = kept.to_vec();
+    setups.extend([&file, &line]);
+    Configuration::new(control, machine, &setups).map_err(Failure::call)
 }
 
 fn split<'t>(option: &str, text: &'t str) -> Result<(&'t str, &'t str), Failure> {

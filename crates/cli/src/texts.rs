@@ -40,13 +40,15 @@ pub struct Texts {
     codes: Option<Codes>,
     /// Where files to load are looked for that are not found from here.
     beside: Option<PathBuf>,
+    /// What is loaded into memory is copied: the file may then change.
+    copies: bool,
 }
 
 impl Texts {
     /// No texts yet; subprograms are looked up in these folders, in their order.
     pub fn new(folders: Vec<PathBuf>) -> Texts {
         let (memory, memory_files) = Default::default();
-        Texts { sources: Vec::new(), folders, memory, memory_files, codes: None, beside: None }
+        Texts { sources: Vec::new(), folders, memory, memory_files, codes: None, beside: None, copies: false }
     }
 
     /// Images of tapes are shown in these codes.
@@ -103,6 +105,29 @@ impl Texts {
     /// Files to load that are not found from here are looked for in this folder.
     pub fn load_beside(&mut self, folder: PathBuf) {
         self.beside = Some(folder);
+    }
+
+    /// What is loaded from now on is copied.
+    pub fn copy_loaded(&mut self) {
+        self.copies = true;
+    }
+
+    /// All bytes of a source.
+    pub fn bytes_of(&mut self, source: SourceId) -> Result<Vec<u8>, LibraryError> {
+        let (mut bytes, mut window) = (Vec::new(), Vec::new());
+        loop {
+            let last = self.read(source, bytes.len() as u64, 1 << 20, &mut window)?;
+            bytes.extend_from_slice(&window);
+            if last || window.is_empty() {
+                return Ok(bytes);
+            }
+        }
+    }
+
+    /// The ending of the file that a program in memory is, on a control whose programs are files.
+    pub fn ending_of(&self, source: SourceId) -> Option<&str> {
+        let name = self.memory_files.iter().find(|(_, own)| **own == source).map(|(name, _)| name)?;
+        name.rsplit_once('.').map(|(_, ending)| ending)
     }
 
     /// Subprograms are looked up beside this file too.
@@ -260,7 +285,11 @@ impl Shelf for Texts {
             Some(beside) if !Path::new(file).exists() && beside.exists() => beside.to_string_lossy().into_owned(),
             _ => file.to_owned(),
         };
-        let source = self.opened(&path).map_err(LibraryError)?;
+        let mut source = self.opened(&path).map_err(LibraryError)?;
+        if self.copies {
+            let bytes = self.bytes_of(source)?;
+            source = self.spooled(&path, Box::new(io::Cursor::new(bytes))).map_err(LibraryError)?;
+        }
         self.look_beside(&path);
         Ok((source, Texts::program_name(file)))
     }

@@ -183,6 +183,11 @@ impl Interpreter {
         self.reader.main_program()
     }
 
+    /// The program of this name.
+    pub fn program_named(&mut self, name: &str) -> base::ProgramId {
+        self.reader.names.intern(name)
+    }
+
     /// The value of a macro variable of the level in execution; `None` is a blank or no such variable.
     pub fn variable(&self, number: u32) -> Option<f64> {
         self.reader.variable(number)

@@ -10,5 +10,5 @@ mod trouble;
 
 pub use content::{Change, Content, Kind, List, Program};
 pub use schema::VERSION;
-pub use store::{MOST_ENTRIES, Store};
+pub use store::{FILE, MOST_ENTRIES, Store};
 pub use trouble::Trouble;

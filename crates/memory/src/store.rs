@@ -9,6 +9,9 @@ use crate::content::{Change, Content, Kind, List, Program};
 use crate::schema::{MIGRATIONS, VERSION};
 use crate::trouble::Trouble;
 
+/// The file in the folder.
+pub const FILE: &str = "memory.sqlite";
+
 /// So many entries a history keeps; the oldest go first.
 pub const MOST_ENTRIES: usize = 1000;
 
@@ -30,7 +33,7 @@ impl Store {
     pub fn open(folder: &Path, holder: &str) -> Result<Store, Trouble> {
         fs::create_dir_all(folder).map_err(|error| Trouble::file(folder, "make the folder", &error))?;
         let lock = hold(folder, holder)?;
-        let path = folder.join("memory.sqlite");
+        let path = folder.join(FILE);
         let named = |error: Error| Trouble::sqlite(&path, &error);
         let mut connection = Connection::open(&path).map_err(named)?;
         let version: i64 = connection.query_row("PRAGMA user_version", [], |row| row.get(0)).map_err(named)?;

@@ -247,6 +247,9 @@ impl Configuration {
             let set = self.fitting.set_parameter(&control, setting);
             set.map_err(|error| setup.refuse(&["parameters", &setting.name], error.0))?;
         }
+        for (kind, name, value) in &setup.kept {
+            self.take_kept(*kind, name, value)?;
+        }
         for &(column, number, mm) in &setup.offsets {
             let set = self.set_offset(column, number, mm);
             set.map_err(|error| setup.refuse(&[column.table(), &number.to_string()], error.0))?;

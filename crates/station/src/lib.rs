@@ -10,6 +10,7 @@ mod configuration;
 mod display;
 mod edit;
 mod fault;
+mod kept;
 mod library;
 mod lock;
 mod memory;
@@ -27,8 +28,9 @@ pub use configuration::{Configuration, ConfigurationError, Inputs};
 pub use display::Value;
 pub use edit::Edit;
 pub use fault::Fault;
+pub use kept::{Cell, CellKind};
 pub use library::{Library, LibraryError, Shelf, Wanted};
-pub use operator::{Operator, Said};
+pub use operator::{Interrupted, Operator, Panel, Said};
 pub use script::{
     ScriptError, ScriptLine, read_action, read_script, split_offset, split_parameter, split_switch, without_comment,
 };

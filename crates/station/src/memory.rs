@@ -56,7 +56,7 @@ pub(crate) fn read_named_offset(control: &Control, memory: &Memory, column: Offs
 }
 
 /// The name of the origin that counts in every system.
-const EXTERNAL: &str = "external";
+pub(crate) const EXTERNAL: &str = "external";
 
 /// A work system, by where its origin is kept.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

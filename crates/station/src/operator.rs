@@ -2,6 +2,7 @@
 
 mod by_hand;
 mod editing;
+mod kept;
 mod lasting;
 mod restart;
 mod search;
@@ -24,6 +25,7 @@ use crate::fault::Fault;
 use crate::library::{Library, LibraryError, Shelf, Wanted};
 use crate::memory;
 use crate::session::Session;
+pub use kept::{Interrupted, Panel};
 use table::Begins;
 
 /// What an action brings to light.

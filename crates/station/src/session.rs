@@ -380,6 +380,11 @@ impl<L: Library> Session<L> {
         Ok(())
     }
 
+    /// How the switches stand.
+    pub fn switches(&self) -> SessionSwitches {
+        self.switches
+    }
+
     /// Turns the override switches.
     pub fn set_percents(&mut self, percents: Percents) {
         self.percents = percents;

@@ -50,6 +50,8 @@ pub struct Setup {
     pub contact: Vec<(u8, f64)>,
     /// Axis letter, whether it has been returned to its reference point since power-on.
     pub returned: Vec<(u8, bool)>,
+    /// What a memory kept: kind, name, value.
+    pub kept: Vec<(crate::kept::CellKind, String, String)>,
     /// The file it was read from, and its text; `None` for what the command line says.
     pub source: Option<(String, String)>,
 }

@@ -32,6 +32,23 @@ const NAMES: &str = "optional-stop, block-delete[=n], single-block, dry-run, mac
                      z-cancel, manual-absolute, edit-lock";
 
 impl SessionSwitches {
+    /// The names of those that are on, as scripts write them.
+    pub fn on(&self) -> Vec<String> {
+        let switches = [
+            ("optional-stop", self.optional_stop),
+            ("single-block", self.single_block),
+            ("dry-run", self.dry_run),
+            ("machine-lock", self.machine_lock),
+            ("display-lock", self.display_lock),
+            ("aux-lock", self.aux_lock),
+            ("z-cancel", self.z_cancel),
+            ("manual-absolute", self.manual_absolute),
+        ];
+        let deletes = (1..=9).filter(|number| self.block_delete >> (number - 1) & 1 == 1);
+        let on = switches.into_iter().filter(|(_, on)| *on).map(|(name, _)| name.to_owned());
+        on.chain(deletes.map(|number| format!("block-delete={number}"))).collect()
+    }
+
     /// Turns a switch by its name.
     ///
     /// # Errors

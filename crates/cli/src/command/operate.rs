@@ -2,11 +2,12 @@
 
 use std::fs;
 use std::io::Read;
+use std::sync::Arc;
 
-use base::Condition;
+use base::{Condition, Diagnostic};
 use machine::EventKind;
 use report::{Format, JsonLine, Tracer, render};
-use station::{LibraryError, Operator, Said, Session, Value, read_script};
+use station::{Action, LibraryError, Operator, Said, Session, Setup, Value, read_script};
 
 use crate::arguments::OperateArguments;
 use crate::failure::Failure;
@@ -14,8 +15,11 @@ use crate::output::{Output, colour_err, say};
 use crate::setting;
 use crate::show_alarm::{show_alarm, show_typed_alarm};
 use crate::texts::{Texts, folder_of};
+use keeping::Keeping;
 use realtime::Hands;
 
+mod history;
+pub mod keeping;
 mod realtime;
 
 /// What a script's performance writes, and to where.
@@ -23,11 +27,42 @@ struct Performance<'a> {
     name: &'a str,
     tracer: Tracer<'a>,
     output: Output,
+    keeping: Option<Keeping>,
 }
 
 impl Performance<'_> {
     fn write(&mut self, said: &Said, session: &mut Session<Texts>) {
-        write(said, session, &mut self.tracer, &mut self.output.buffer);
+        let diagnostic = write(said, session, &mut self.tracer, &mut self.output.buffer);
+        if let Some(keeping) = &mut self.keeping {
+            keeping.note(said, session, diagnostic.as_ref());
+        }
+    }
+
+    /// In the middle of an action: what was written goes out once there is enough of it, and nothing before it is in
+    /// the memory.
+    fn pass(&mut self, session: &mut Session<Texts>) -> Result<(), Failure> {
+        if let Some(keeping) = &mut self.keeping
+            && (self.output.is_enough() || keeping.is_late(session))
+        {
+            let changes = keeping.session_changes(session);
+            keeping.commit(&changes)?;
+        }
+        self.output.pass()
+    }
+
+    /// Between two actions.
+    fn settle(&mut self, operator: &mut Operator<Texts>) -> Result<(), Failure> {
+        if self.output.is_enough() || self.keeping.as_ref().is_some_and(|keeping| keeping.is_late(&operator.session)) {
+            self.keep(operator)?;
+        }
+        self.output.pass()
+    }
+
+    /// All that has changed is in the memory when this returns.
+    fn keep(&mut self, operator: &mut Operator<Texts>) -> Result<(), Failure> {
+        let Some(keeping) = &mut self.keeping else { return Ok(()) };
+        let changes = keeping.changes(operator)?;
+        keeping.commit(&changes)
     }
 }
 
@@ -45,13 +80,19 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     // By the clock, lines on standard input act as they come.
     let live = arguments.realtime && name == "-";
     let script = if live { Vec::new() } else { script(name)? };
-    let configuration = setting::configuration(&arguments.setting)?;
-    let control = configuration.control.clone();
+    let setting = &arguments.setting;
+    let control = Arc::new(setting::load(&setting.control, setting.controls.as_deref())?);
+    let mut keeping = arguments.memory.as_ref().map(|folder| Keeping::open(folder, &control)).transpose()?;
+    let kept: Vec<&Setup> = keeping.iter().map(Keeping::setup).collect();
+    let configuration = setting::configuration_over(control.clone(), setting, &kept)?;
     let machine = configuration.machine.clone();
     let mut tracer = Tracer::new(&control, &machine.name, machine.axes.iter().map(|axis| axis.letter));
     tracer.with_time = true;
     tracer.with_io = arguments.io;
-    let mut texts = setting::texts(name, &arguments.setting)?;
+    let mut texts = setting::texts(name, setting)?;
+    if keeping.is_some() {
+        texts.copy_loaded();
+    }
     texts.show_tapes(configuration.fitting.tape_codes(&control));
     if name != "-" {
         texts.load_beside(folder_of(name));
@@ -61,7 +102,13 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     session.interpreter_mut().tell_variables(true);
     session.tell_signals(arguments.io);
     let mut operator = Operator::new(session);
-    let mut performance = Performance { name, tracer, output: Output::new() };
+    let mut performance = Performance { name, tracer, output: Output::new(), keeping: None };
+    if let Some(keeping) = &mut keeping {
+        let as_kept = setting::kept_configuration(control.clone(), setting, keeping.setup())?;
+        keeping.take_up(&as_kept, &mut operator, &mut |session, said| performance.write(&said, session))?;
+    }
+    performance.keeping = keeping;
+    performance.keep(&mut operator)?;
     if arguments.realtime {
         let hands = if live { Hands::Live } else { Hands::Script(script) };
         realtime::run(&mut operator, hands, &mut performance, arguments.displays)?;
@@ -69,10 +116,11 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     }
     let mut failed = None;
     for station::ScriptLine { line, written, action } in &script {
+        let lasts = matches!(action, Action::Run(_));
         let mut tell = |session: &mut Session<Texts>, said: Said| {
             performance.write(&said, session);
-            if let Err(failure) = performance.output.pass() {
-                failed.get_or_insert(failure);
+            if lasts && failed.is_none() {
+                failed = performance.pass(session).err();
             }
         };
         let performed = operator.perform_written(action, Some(written), &mut tell);
@@ -80,9 +128,15 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
         if let Some(failure) = failed.take() {
             return Err(failure);
         }
+        performance.settle(&mut operator)?;
     }
+    let alarm = operator.session.alarm().is_some();
+    if let Some(keeping) = &mut performance.keeping {
+        keeping.switch_off(&mut operator);
+    }
+    performance.keep(&mut operator)?;
     performance.output.flush()?;
-    Ok(operator.session.alarm().is_none())
+    Ok(!alarm)
 }
 
 /// Reads a script as a whole.
@@ -98,7 +152,8 @@ fn script(name: &str) -> Result<Vec<station::ScriptLine>, Failure> {
     read_script(&text).map_err(|error| Failure::call(format!("{name}:{}: {}", error.line, error.message)))
 }
 
-fn write(said: &Said, session: &mut Session<Texts>, tracer: &mut Tracer, out: &mut Vec<u8>) {
+/// Writes what was said; an alarm is given back in words.
+fn write(said: &Said, session: &mut Session<Texts>, tracer: &mut Tracer, out: &mut Vec<u8>) -> Option<Diagnostic> {
     let time = session.time().0;
     match said {
         Said::Event(event) => {
@@ -119,6 +174,7 @@ fn write(said: &Said, session: &mut Session<Texts>, tracer: &mut Tracer, out: &m
             }
             let interpreter = session.interpreter();
             tracer.write(event, |program| interpreter.program_name(program), diagnostic.as_ref(), out);
+            return diagnostic;
         }
         Said::Refused { action, why } => {
             let mut line = JsonLine::begin(out);
@@ -135,6 +191,7 @@ fn write(said: &Said, session: &mut Session<Texts>, tracer: &mut Tracer, out: &m
             out.push(b'\n');
         }
     }
+    None
 }
 
 fn write_value(name: &str, value: &Value, line: &mut JsonLine) {

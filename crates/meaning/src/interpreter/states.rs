@@ -71,6 +71,11 @@ impl Interpreter {
         self.start_state = *self.reader.state;
     }
 
+    /// The origin of the base work system at every later power-on (counts).
+    pub fn lasting_base_origin(&self) -> &Point {
+        &self.base_origin
+    }
+
     /// Settings that follow the codes last executed, such as the unit of input, are written.
     pub fn store_codes(&mut self) {
         let groups = self.executing_state().groups;

@@ -68,6 +68,20 @@ impl Variables {
         self.clock_shift = other.clock_shift;
     }
 
+    /// The variables that are kept while power is off, by their numbers; a blank is [`BLANK`].
+    pub fn kept(&self) -> impl Iterator<Item = (u32, f64)> {
+        (self.first[1]..).zip(self.permanent.iter().copied())
+    }
+
+    /// Writes a variable that is kept while power is off; false if there is none of this number.
+    pub fn set_kept(&mut self, number: u32, value: f64) -> bool {
+        let slot = number.checked_sub(self.first[1]).and_then(|index| self.permanent.get_mut(index as usize));
+        slot.is_some_and(|slot| {
+            *slot = value;
+            true
+        })
+    }
+
     /// What reset and power-on blank: local and volatile variables.
     pub fn reset(&mut self) {
         self.locals.fill([BLANK; LOCALS]);

@@ -97,6 +97,18 @@ impl<L: Library> Session<L> {
         }
     }
 
+    /// The block at which the power would interrupt a program, or has interrupted it.
+    pub fn at_work(&self) -> Option<Place> {
+        self.interrupted.or_else(|| self.is_running().then(|| self.place()))
+    }
+
+    /// The power comes back after it failed while this block was being executed.
+    pub fn come_back_from(&mut self, place: Place) {
+        self.power_off();
+        self.interrupted = Some(place);
+        self.power_on();
+    }
+
     /// The power is back after it failed: what was interrupted is said.
     pub(super) fn tell_of_power_failure(&mut self) {
         if let Some(place) = self.interrupted.take() {

@@ -10,8 +10,10 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use base::Seconds;
+use memory::{Change, Store};
 use station::{Action, Operator, Said, Show, read_action, without_comment};
 
+use super::keeping::Keeping;
 use super::{Performance, perform};
 use crate::failure::Failure;
 use crate::output::say;
@@ -128,17 +130,23 @@ fn next_line(input: &mut impl BufRead) -> io::Result<Option<String>> {
     Ok(Some(String::from_utf8_lossy(&line).into_owned()))
 }
 
-/// Standard output, written by a thread of its own.
+/// What is written together: changes of the memory, and behind them what may then be said.
+type Piece = (Vec<Change>, Vec<u8>);
+
+/// The memory and standard output, written by a thread of its own.
 struct Writer {
-    pieces: SyncSender<Vec<u8>>,
-    thread: JoinHandle<io::Result<()>>,
+    pieces: SyncSender<Piece>,
+    thread: JoinHandle<Result<(), Failure>>,
 }
 
 impl Writer {
-    fn new() -> Writer {
-        let (pieces, coming) = sync_channel::<Vec<u8>>(PIECES);
+    fn new(mut store: Option<Store>) -> Writer {
+        let (pieces, coming) = sync_channel::<Piece>(PIECES);
         let thread = thread::spawn(move || {
-            for piece in coming {
+            for (changes, piece) in coming {
+                if let Some(store) = &mut store {
+                    store.commit(&changes).map_err(Failure::call)?;
+                }
                 let mut out = io::stdout().lock();
                 out.write_all(&piece)?;
                 out.flush()?;
@@ -149,29 +157,29 @@ impl Writer {
     }
 
     /// Hands over what has been gathered; false if nobody takes it any more.
-    fn pass(&self, buffer: &mut Vec<u8>) -> bool {
-        if buffer.is_empty() {
+    fn pass(&self, changes: &mut Vec<Change>, buffer: &mut Vec<u8>) -> bool {
+        if buffer.is_empty() && changes.is_empty() {
             return true;
         }
-        let piece = std::mem::take(buffer);
-        if piece.len() >= MOST_WAITING {
+        let piece = (std::mem::take(changes), std::mem::take(buffer));
+        if piece.1.len() >= MOST_WAITING {
             return self.pieces.send(piece).is_ok();
         }
         match self.pieces.try_send(piece) {
             Ok(()) => true,
             Err(TrySendError::Full(piece)) => {
-                *buffer = piece;
+                (*changes, *buffer) = piece;
                 true
             }
             Err(TrySendError::Disconnected(_)) => false,
         }
     }
 
-    fn finish(self, buffer: Vec<u8>) -> Result<(), Failure> {
-        let sent = self.pieces.send(buffer);
+    fn finish(self, changes: Vec<Change>, buffer: Vec<u8>) -> Result<(), Failure> {
+        let sent = self.pieces.send((changes, buffer));
         drop(self.pieces);
         match self.thread.join() {
-            Ok(written) => Ok(written?),
+            Ok(written) => written,
             Err(_) => Err(Failure::call("standard output is gone".to_owned())),
         }
         .and(sent.or(Ok(())))
@@ -186,7 +194,8 @@ pub(super) fn run(
     displays_hz: Option<f64>,
 ) -> Result<(), Failure> {
     let live = matches!(hands, Hands::Live);
-    let (mut queue, writer) = (Queue::new(hands), Writer::new());
+    let store = performance.keeping.as_mut().and_then(Keeping::take_store);
+    let (mut queue, writer, mut changes) = (Queue::new(hands), Writer::new(store), Vec::new());
     let period = operator.session.servo_period();
     operator.run_by_the_clock();
     let mut pace = Pace::new(operator.session.time(), Duration::from_secs_f64(period));
@@ -239,12 +248,19 @@ pub(super) fn run(
                 }
             }
         }
-        if !writer.pass(&mut performance.output.buffer) {
+        if let Some(keeping) = &mut performance.keeping {
+            changes.extend(keeping.changes(operator)?);
+        }
+        if !writer.pass(&mut changes, &mut performance.output.buffer) {
             break;
         }
         pace.wait_until(operator.session.time());
     }
-    writer.finish(std::mem::take(&mut performance.output.buffer))?;
+    if let Some(keeping) = &mut performance.keeping {
+        keeping.switch_off(operator);
+        changes.extend(keeping.changes(operator)?);
+    }
+    writer.finish(changes, std::mem::take(&mut performance.output.buffer))?;
     say(&pace.tells());
     Ok(())
 }
