@@ -2,7 +2,9 @@
 //!
 //! `name` and each axis' `kind` and `travel` are required; any other missing key has its default.
 
-use base::{AXES, AxisSet, Point, Seconds};
+use std::sync::Arc;
+
+use base::{AXES, Alarm, AxisSet, Condition, Point, Seconds};
 use data::{DataError, Document, Table};
 use include_dir::{Dir, include_dir};
 use meaning::{AxisFacts, CodeLine, CodeRules, Kinematics, MachineFacts};
@@ -10,6 +12,7 @@ use motion::{AxisLimits, Limits};
 
 use crate::interface::{HandshakeTimes, default_handshake_times, handshake_times};
 use crate::kinematics::kinematics;
+use crate::logic::{CodesOut, LogicTable, logic};
 use crate::path_table::{PathTable, not_negative, path, positive};
 use crate::reference_return::ReferenceReturn;
 use crate::signals::{LimitSwitch, MagazineFacts, SpindleFacts, magazine, spindle};
@@ -111,6 +114,8 @@ pub struct MachineFile {
     pub magazine: MagazineFacts,
     /// What is wired to the control's inputs.
     pub wiring: Wiring,
+    /// What the builder's logic does with codes.
+    pub logic: Arc<LogicTable>,
     /// How the axes that turn move the tip of the tool; `None` if the builder does not say.
     pub kinematics: Option<Kinematics>,
 }
@@ -160,6 +165,12 @@ impl MachineFile {
         self.axes.iter().enumerate().filter_map(of).flatten().collect()
     }
 
+    /// What an alarm is about in the builder's own words, if it is about his logic.
+    pub fn words_of(&self, alarm: &Alarm) -> Option<String> {
+        let is_late = alarm.condition == Condition::LogicTimeOut;
+        is_late.then(|| self.logic.alarm_in_words(alarm.values[2])).flatten()
+    }
+
     /// The rapid rates, mm/min, as a point.
     pub fn rapid_rates(&self) -> Point {
         let mut rates = [0.0; AXES];
@@ -196,6 +207,8 @@ fn machine(root: &mut Table) -> MachineFile {
         Some(functions) => functions,
         None => default_functions(root, &axes),
     };
+    let out = CodesOut { digits: codes.digits, b_axis };
+    let logic = root.table("logic", |t| logic(t, out)).unwrap_or_default();
     MachineFile {
         name,
         description,
@@ -208,6 +221,7 @@ fn machine(root: &mut Table) -> MachineFile {
         spindle,
         magazine,
         kinematics,
+        logic: Arc::new(logic),
         wiring: wiring.unwrap_or_else(|| Wiring { eop: default_eop(), rwd: default_rwd() }),
     }
 }

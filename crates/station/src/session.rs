@@ -156,6 +156,7 @@ impl<L: Library> Session<L> {
             contact,
             switches,
             inputs,
+            lines,
         } = configuration.clone();
         let mut interpreter = Interpreter::new(control, fitting.clone(), machine.facts(), memory, &start, base_origin);
         interpreter.lose_reference_points(not_returned);
@@ -163,6 +164,9 @@ impl<L: Library> Session<L> {
         virtual_machine.set_contact(contact);
         virtual_machine.set_skip(inputs.skip);
         virtual_machine.wire(awaiting::decoded_lines(&configuration, &inputs));
+        for (line, on) in lines {
+            virtual_machine.hold_line(line, on, Seconds(0.0), &mut Vec::new());
+        }
         let motion = Motion::new(Path::new(interpreter, start), machine.limits());
         let mut session = Session {
             motion,

@@ -106,7 +106,7 @@ fn check(done: &[&str], events: &[Event]) {
         assert!(event.time.0 >= time - 1e-9, "{done:?}\n{event:?} comes after {time}");
         time = event.time.0;
         if let EventKind::Signal(signal, on) = event.kind {
-            let name = signal.name(|code| format!("M{code}R"), |axis| axis.to_string());
+            let name = signal.name(|code| format!("M{code}R"), |axis| axis.to_string(), |line| format!("line {line}"));
             assert_ne!(lines.insert(name.clone(), on), Some(on), "{done:?}\n{name} is {on} already at {time}");
         }
     }

@@ -19,6 +19,7 @@ pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
     let configuration = session.configuration().clone();
     let (control, machine) = (&configuration.control, &configuration.machine);
     let mut tracer = Tracer::new(control, &machine.name, machine.axes.iter().map(|axis| axis.letter));
+    tracer.name_lines(machine.logic.lines.iter().map(|line| line.name.as_str()));
     tracer.with_time = arguments.time;
     tracer.with_io = arguments.io;
     let mut output = Output::new();

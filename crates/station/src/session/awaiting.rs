@@ -27,6 +27,16 @@ pub(super) fn decoded_lines(configuration: &Configuration, inputs: &Inputs) -> V
     .collect()
 }
 
+/// The letter of a code.
+pub(super) const fn letter(line: CodeLine) -> u8 {
+    match line {
+        CodeLine::M => b'M',
+        CodeLine::S => b'S',
+        CodeLine::T => b'T',
+        CodeLine::B => b'B',
+    }
+}
+
 impl<L: Library> Session<L> {
     /// Every edge of a line between control and machine is an event too.
     pub fn tell_signals(&mut self, tells: bool) {
@@ -50,6 +60,17 @@ impl<L: Library> Session<L> {
         if waits && self.alarm.is_none() { self.machine.waiting() } else { None }
     }
 
+    /// What the steps of the code wait for that the control waits for, in words, if the builder's logic has it.
+    pub fn logic_waiting(&self, waiting: &Waiting) -> Option<String> {
+        let wait = self.machine.logic_waiting(waiting.code)?;
+        Some(self.configuration.machine.logic.wait_in_words(&wait))
+    }
+
+    /// The builder's lines and how they stand.
+    pub fn logic_lines(&self) -> impl Iterator<Item = (&str, bool)> {
+        self.machine.logic_lines()
+    }
+
     /// Holds an input by hand.
     ///
     /// # Errors
@@ -58,6 +79,10 @@ impl<L: Library> Session<L> {
         let now = self.time();
         if name == "FIN" {
             self.machine.set_fin(on, now, &mut self.events);
+            return Ok(());
+        }
+        if let Some(line) = self.configuration.machine.logic.input(name) {
+            self.machine.hold_line(line, on, now, &mut self.events);
             return Ok(());
         }
         let before = self.inputs;
@@ -150,6 +175,13 @@ impl<L: Library> Session<L> {
         let limit = limit.max(self.machine.time().0);
         match self.machine.wait_for_codes(limit, place, &mut self.events) {
             Wait::Over => true,
+            // Where nobody works the control, nobody gives what is waited for.
+            Wait::Still if !self.live && limit == f64::INFINITY => {
+                if let Some(waiting) = self.machine.waiting() {
+                    self.raise(self.never_comes(&waiting));
+                }
+                true
+            }
             Wait::Still => false,
             Wait::GivenUp(trouble, waiting) => {
                 self.raise(self.given_up(trouble, &waiting));
@@ -158,20 +190,25 @@ impl<L: Library> Session<L> {
         }
     }
 
+    fn never_comes(&self, waiting: &Waiting) -> Alarm {
+        match self.machine.logic_late(waiting.code) {
+            Some(wait) => {
+                let values = [f64::from(letter(waiting.code.line)), f64::from(waiting.code.code), wait];
+                Alarm::new(Condition::LogicTimeOut, waiting.place, waiting.place.block).with(values)
+            }
+            None if waiting.on => self.given_up(Trouble::Missing, waiting),
+            None => self.given_up(Trouble::Stuck, waiting),
+        }
+    }
+
     fn given_up(&self, trouble: Trouble, waiting: &Waiting) -> Alarm {
-        let letter = match waiting.code.line {
-            CodeLine::M => b'M',
-            CodeLine::S => b'S',
-            CodeLine::T => b'T',
-            CodeLine::B => b'B',
-        };
         let condition = match trouble {
             Trouble::Missing => Condition::FinMissing,
             Trouble::Early => Condition::FinEarly,
             Trouble::Stuck => Condition::FinStuck,
         };
         let time_out = self.configuration.machine.handshake.time_out.0;
-        let values = [f64::from(letter), f64::from(waiting.code.code), time_out];
+        let values = [f64::from(letter(waiting.code.line)), f64::from(waiting.code.code), time_out];
         Alarm::new(condition, waiting.place, waiting.place.block).with(values)
     }
 }

@@ -2,7 +2,7 @@
 
 use base::{AXES, Alarm, Condition, Place};
 use dialect::{Fate, Occasion, StateItem};
-use machine::{EventKind, Machine, ResetCause};
+use machine::{EventKind, LogicFate, Machine, ResetCause};
 
 use super::Session;
 use crate::library::Library;
@@ -52,6 +52,7 @@ impl<L: Library> Session<L> {
         self.machine.stop_spindle(now, &mut self.events);
         self.interpreter_mut().store_codes();
         self.drop_work();
+        self.end_logic(LogicFate::Off);
         self.come_back();
         self.forget_typed();
         self.alarm = None;
@@ -61,6 +62,7 @@ impl<L: Library> Session<L> {
     /// The power comes back. The axes stand where they stood.
     pub fn power_on(&mut self) {
         self.powered = true;
+        self.end_logic(LogicFate::Initial);
         self.settle();
         self.unseen = [0.0; AXES];
         let position = *self.machine.position();
@@ -131,6 +133,9 @@ impl<L: Library> Session<L> {
         self.look_for_label(occasion);
         self.alarm = None;
         if occasion != Occasion::ProgramEnd {
+            let logic = &self.configuration.machine.logic;
+            let fate = if occasion == Occasion::EmergencyStop { logic.emergency_stop } else { logic.reset };
+            self.end_logic(fate);
             self.mend();
         }
         let groups = self.interpreter().read_state().groups;
