@@ -8,8 +8,10 @@ use super::reading::{CodesOut, Placed};
 use super::{LogicLine, LogicStep, Watched};
 
 /// Every sequence is one of a code that goes out, and each of its steps is come to.
-pub fn check_sequences(table: &Table, sequences: &[Placed], lines: &[LogicLine], codes: CodesOut) {
-    for (index, placed) in sequences.iter().enumerate() {
+pub fn check_sequences(table: &Table, sequences: &[Placed], lines: &[LogicLine], rotors: &[Rotor], codes: CodesOut) {
+    // One whose code cannot be read has been refused as that.
+    let is_code = |placed: &&Placed| placed.sequence.line != CodeLine::M || placed.sequence.code.is_some();
+    for (index, placed) in sequences.iter().enumerate().filter(|(_, placed)| is_code(placed)) {
         let row = &placed.sequence;
         let name = code_name(row.line, row.code);
         let same = |other: &&Placed| (other.sequence.line, other.sequence.code) == (row.line, row.code);
@@ -31,7 +33,7 @@ pub fn check_sequences(table: &Table, sequences: &[Placed], lines: &[LogicLine],
         if row.steps.is_empty() {
             table.error(placed.code.clone(), format!("{name} has no steps"));
         }
-        check_steps(table, placed, sequences, lines);
+        check_steps(table, placed, sequences, lines, rotors);
     }
 }
 
@@ -45,7 +47,7 @@ fn code_name(line: CodeLine, code: Option<u32>) -> String {
     code.map_or(letter.to_string(), |code| format!("{letter}{code:02}"))
 }
 
-fn check_steps(table: &Table, placed: &Placed, sequences: &[Placed], lines: &[LogicLine]) {
+fn check_steps(table: &Table, placed: &Placed, sequences: &[Placed], lines: &[LogicLine], rotors: &[Rotor]) {
     let mut answered = false;
     for (number, (step, place)) in placed.sequence.steps.iter().zip(&placed.steps).enumerate() {
         let number = number + 1;
@@ -66,7 +68,7 @@ fn check_steps(table: &Table, placed: &Placed, sequences: &[Placed], lines: &[Lo
         if let Some((line, _)) = twice {
             say(format!("sets and clears `{}`", name(&Watched::Line(*line))));
         }
-        if let Some((line, on)) = never(step, sequences, lines) {
+        if let Some((line, on)) = never(step, sequences, lines, rotors) {
             let (verb, state) = if on { ("sets", "on") } else { ("clears", "off") };
             let line = name(&line);
             say(format!(
@@ -85,11 +87,14 @@ fn both(watched: &[(Watched, bool)]) -> Option<Watched> {
 }
 
 /// An output that the step waits for and that stands otherwise for ever.
-fn never(step: &LogicStep, sequences: &[Placed], lines: &[LogicLine]) -> Option<(Watched, bool)> {
+fn never(step: &LogicStep, sequences: &[Placed], lines: &[LogicLine], rotors: &[Rotor]) -> Option<(Watched, bool)> {
+    let turns = |step: &LogicStep, line: u8| {
+        let rotor = step.turns.and_then(|(rotor, _)| rotors.get(rotor));
+        rotor.is_some_and(|rotor| rotor.forward == line || rotor.backward == Some(line))
+    };
     let switched = |wanted: (u8, bool)| {
         let mut steps = sequences.iter().flat_map(|placed| &placed.sequence.steps);
-        // What turns has its outputs switched on and off.
-        steps.any(|step| step.switches.contains(&wanted) || step.turns.is_some())
+        steps.any(|step| step.switches.contains(&wanted) || turns(step, wanted.0))
     };
     step.waits.iter().copied().find(|&(watched, on)| {
         let Watched::Line(index) = watched else { return false };

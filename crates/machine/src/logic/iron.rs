@@ -43,10 +43,40 @@ impl Rotor {
         (way % self.step == 0 && position < self.positions).then_some(position)
     }
 
-    /// True if it is to turn backward from here to there: the shorter way, forward of two alike.
-    pub fn goes_back(&self, from: u32, to: u32) -> bool {
-        let ahead = (to + self.positions - from) % self.positions;
-        self.backward.is_some() && ahead > self.positions - ahead
+    /// Which way it is to turn from here to there: the shorter one, forward of two alike, 0 if it stands there.
+    pub fn way(&self, from: Counted, to: u32) -> i8 {
+        // In half positions: between two it has half a one to the next.
+        let round = 2 * self.positions;
+        let here = (2 * from.position + round).wrapping_add_signed(i32::from(from.left)) % round;
+        let ahead = (2 * to + round - here) % round;
+        match ahead {
+            0 => 0,
+            _ if self.backward.is_some() && ahead > round - ahead => -1,
+            _ => 1,
+        }
+    }
+}
+
+/// Where the logic takes something that turns to be, by the pulses that it has seen.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Counted {
+    /// The position at which it stands or that it has left last.
+    pub position: u32,
+    /// Which way it has left that; 0 if it stands there.
+    pub left: i8,
+}
+
+impl Counted {
+    /// Its input turns off or on while the outputs turn it this way.
+    pub fn see(&mut self, on: bool, way: i8, positions: u32) {
+        if !on {
+            self.left = way;
+        } else {
+            // Turned back between two positions it comes to the same one again.
+            let moved = if self.left == way { i32::from(way) } else { 0 };
+            self.position = (self.position + positions).wrapping_add_signed(moved) % positions;
+            self.left = 0;
+        }
     }
 }
 
@@ -155,9 +185,11 @@ impl Turning {
         (self.since, self.way) = (now, way);
     }
 
-    /// The position at which it stands, or the one that it has left last.
-    pub fn position(&self, rotor: &Rotor) -> u32 {
-        (self.at.round().rem_euclid(f64::from(rotor.positions))) as u32
+    /// Where it stands, as someone finds it who looks.
+    pub fn found(&self, rotor: &Rotor) -> Counted {
+        let at = if self.cam { self.at.round() } else { self.at.floor() };
+        let position = at.rem_euclid(f64::from(rotor.positions)) as u32;
+        Counted { position, left: i8::from(!self.cam) }
     }
 }
 
@@ -175,8 +207,13 @@ mod tests {
         let rotor = rotor(Some(2));
         assert_eq!([0, 90, 330].map(|code| rotor.position_of(code)), [Some(0), Some(3), Some(11)]);
         assert_eq!([45, 360].map(|code| rotor.position_of(code)), [None, None]);
-        assert!(!rotor.goes_back(0, 6) && rotor.goes_back(0, 7) && !rotor.goes_back(11, 1));
-        assert!(!self::rotor(None).goes_back(0, 7), "it cannot");
+        let stands = |position| Counted { position, left: 0 };
+        assert_eq!([0, 1, 6, 7].map(|to| rotor.way(stands(0), to)), [0, 1, 1, -1]);
+        assert_eq!((rotor.way(stands(11), 1), self::rotor(None).way(stands(0), 7)), (1, 1));
+        // Between two positions it is at neither.
+        let between = Counted { position: 0, left: 1 };
+        assert_eq!([0, 1].map(|to| rotor.way(between, to)), [-1, 1]);
+        assert_eq!(self::rotor(None).way(between, 0), 1, "the long way round");
     }
 
     #[test]
@@ -188,13 +225,23 @@ mod tests {
         assert_eq!(turning.next(&rotor), Some((10.5, true)));
         turning.pass(true, &rotor, 10.5);
         turning.turn(0, &rotor, 10.5);
-        assert_eq!((turning.position(&rotor), turning.cam, turning.next(&rotor)), (1, true, None));
+        assert_eq!((turning.found(&rotor), turning.next(&rotor)), (Counted { position: 1, left: 0 }, None));
         // Stopped between two positions it goes on from there.
         turning.turn(1, &rotor, 20.0);
         turning.pass(false, &rotor, 20.125);
         turning.turn(0, &rotor, 20.25);
+        assert_eq!(turning.found(&rotor), Counted { position: 1, left: 1 });
         turning.turn(1, &rotor, 30.0);
         assert_eq!(turning.next(&rotor), Some((30.25, true)));
+    }
+
+    #[test]
+    fn pulses_are_counted_either_way() {
+        let mut counted = Counted::default();
+        for (on, way) in [(false, -1), (true, -1), (false, 1), (true, -1), (false, 1), (true, 1)] {
+            counted.see(on, way, 12);
+        }
+        assert_eq!(counted, Counted { position: 0, left: 0 });
     }
 
     #[test]

@@ -72,7 +72,7 @@ pub(crate) fn logic(table: &mut Table, codes: CodesOut) -> LogicTable {
     let actuators: Vec<Actuator> = table.tables("actuators", |t| actuator(t, &names)).into_iter().flatten().collect();
     names.rotors = table.tables("rotors", |t| rotor(t, &names)).into_iter().flatten().collect();
     let sequences = table.tables("sequences", |t| sequence(t, &names));
-    check_sequences(table, &sequences, &names.lines, codes);
+    check_sequences(table, &sequences, &names.lines, &names.rotors, codes);
     check_lines(table, &actuators, &names.rotors, &names.lines);
     let sequences = sequences.into_iter().map(|placed| placed.sequence).collect();
     LogicTable { lines: names.lines, sequences, actuators, rotors: names.rotors, reset, emergency_stop }

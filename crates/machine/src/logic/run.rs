@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use meaning::CodeOut;
 
-use super::iron::{Slide, Turning};
+use super::iron::{Counted, Slide, Turning};
 use super::{LogicFate, LogicStep, LogicTable, Place, SpindleSays, Watched};
 
 /// A sequence that runs.
@@ -55,8 +55,8 @@ pub struct Logic {
     runs: Vec<[Option<Run>; 2]>,
     slides: Vec<Slide>,
     turnings: Vec<Turning>,
-    /// The positions that the logic has counted.
-    counted: Vec<u32>,
+    /// Where the logic takes what turns to be.
+    counted: Vec<Counted>,
     spindle: [bool; 3],
     /// Codes that are done, a bit each.
     finished: u32,
@@ -82,7 +82,7 @@ impl Logic {
             runs: vec![[None; 2]; table.sequences.len()],
             slides,
             turnings: vec![Turning::STANDS; table.rotors.len()],
-            counted: vec![0; table.rotors.len()],
+            counted: vec![Counted::default(); table.rotors.len()],
             spindle: [false; 3],
             finished: 0,
             trouble: None,
@@ -174,7 +174,7 @@ impl Logic {
     /// The first line that a step still waits for.
     fn awaited(&self, run: &Run, step: &LogicStep) -> Option<(Watched, bool)> {
         if let Some((rotor, _)) = step.turns
-            && self.counted.get(rotor) != Some(&run.goal)
+            && self.counted.get(rotor) != Some(&Counted { position: run.goal, left: 0 })
         {
             return self.table.rotors.get(rotor).map(|rotor| (Watched::Line(rotor.count), true));
         }
@@ -256,8 +256,9 @@ impl Logic {
                 return false;
             };
             run.goal = goal;
-            if goal != counted {
-                let output = rotor.backward.filter(|_| rotor.goes_back(counted, goal)).unwrap_or(rotor.forward);
+            let way = rotor.way(counted, goal);
+            if way != 0 {
+                let output = rotor.backward.filter(|_| way < 0).unwrap_or(rotor.forward);
                 self.switch(output, true, now, tell);
             }
         }
@@ -330,26 +331,23 @@ impl Logic {
             let seen = held.unwrap_or(if self.stuck[index] { self.on[index] } else { given });
             if std::mem::replace(&mut self.on[index], seen) != seen {
                 tell(index as u8, seen);
-                if seen {
-                    self.count(index as u8, now, tell);
-                }
+                self.count(index as u8, seen, now, tell);
             }
         }
     }
 
-    /// An input has turned on: what turns is a position farther, and stops where it is to stand.
-    fn count(&mut self, input: u8, now: f64, tell: Tell) {
+    /// An input has turned on or off: what turns is a position farther, and stops where it is to stand.
+    fn count(&mut self, input: u8, on: bool, now: f64, tell: Tell) {
         let table = Arc::clone(&self.table);
         let is_on = |logic: &Logic, line: u8| logic.on.get(usize::from(line)).copied().unwrap_or(false);
         for (index, row) in table.rotors.iter().enumerate().filter(|(_, row)| row.count == input) {
             let back = row.backward.is_some_and(|line| is_on(self, line));
-            let way = if back { row.positions - 1 } else { u32::from(is_on(self, row.forward)) };
+            let way = i8::from(is_on(self, row.forward)) - i8::from(back);
             let Some(counted) = self.counted.get_mut(index) else { continue };
-            *counted = (*counted + way) % row.positions;
-            let counted = *counted;
-            let stands = self
-                .running()
-                .any(|(_, run, step)| step.turns.is_some_and(|(rotor, _)| rotor == index) && run.goal == counted);
+            counted.see(on, way, row.positions);
+            let position = counted.position;
+            let turns = |step: &LogicStep| step.turns.is_some_and(|(rotor, _)| rotor == index);
+            let stands = on && self.running().any(|(_, run, step)| turns(step) && run.goal == position);
             if stands {
                 self.stop(index, now, tell);
             }
@@ -385,7 +383,7 @@ impl Logic {
         self.stuck.fill(false);
         self.follow_iron(now, tell);
         let rotors = self.turnings.iter().zip(&self.table.rotors);
-        let places = rotors.map(|(turning, row)| turning.position(row));
+        let places = rotors.map(|(turning, row)| turning.found(row));
         self.counted.iter_mut().zip(places).for_each(|(counted, place)| *counted = place);
     }
 

@@ -392,6 +392,9 @@ impl VirtualMachine {
                 (_, _, Some((at, moment))) => self.pass_moment(at, moment, told),
                 _ => return Wait::Over,
             }
+            if self.logic_gives_up().is_some_and(|late| late.at <= self.time.0) {
+                return Wait::Still;
+            }
         }
         Wait::Still
     }

@@ -171,21 +171,28 @@ impl<L: Library> Session<L> {
             return true;
         }
         self.rest();
-        let limit = self.deadline.map_or(f64::INFINITY, |deadline| deadline.0).min(self.next_trip());
-        let limit = limit.max(self.machine.time().0);
-        match self.machine.wait_for_codes(limit, place, &mut self.events) {
-            Wait::Over => true,
-            // Where nobody works the control, nobody gives what is waited for.
-            Wait::Still if !self.live && limit == f64::INFINITY => {
-                if let Some(waiting) = self.machine.waiting() {
-                    self.raise(self.never_comes(&waiting));
+        let deadline = self.deadline.map_or(f64::INFINITY, |deadline| deadline.0);
+        loop {
+            let limit = deadline.min(self.next_trip()).max(self.machine.time().0);
+            let wait = self.machine.wait_for_codes(limit, place, &mut self.events);
+            let (now, trip) = (self.machine.time().0, self.next_trip());
+            match wait {
+                Wait::Over => return true,
+                Wait::GivenUp(trouble, waiting) => {
+                    self.raise(self.given_up(trouble, &waiting));
+                    return true;
                 }
-                true
-            }
-            Wait::Still => false,
-            Wait::GivenUp(trouble, waiting) => {
-                self.raise(self.given_up(trouble, &waiting));
-                true
+                Wait::Still if trip <= now => return false,
+                // The builder's logic has got on meanwhile, and gives up later.
+                Wait::Still if limit < deadline => {}
+                // Where nobody works the control, nobody gives what is waited for.
+                Wait::Still if !self.live && limit == f64::INFINITY => {
+                    if let Some(waiting) = self.machine.waiting() {
+                        self.raise(self.never_comes(&waiting));
+                    }
+                    return true;
+                }
+                Wait::Still => return false,
             }
         }
     }
