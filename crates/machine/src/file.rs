@@ -85,8 +85,8 @@ pub struct MachineAxis {
     pub approach: f64,
     /// Where the overtravel switches are, machine coordinates; `None` where the travel is all there is.
     pub limit_switches: Option<[f64; 2]>,
-    /// How it returns to its reference point by hand.
-    pub reference_return: ReferenceReturn,
+    /// Its dog, by which it returns to its reference point; without one it goes straight there.
+    pub reference_return: Option<ReferenceReturn>,
 }
 
 /// A machine.
@@ -281,7 +281,7 @@ fn axis(table: &mut Table, letter: u8) -> MachineAxis {
     let max_feed = positive(table, "max_feed", 6000.0);
     let acceleration = positive(table, "acceleration", 500.0);
     let jerk = not_negative(table, "jerk", 0.0);
-    let reference_return = table.table("return", |t| ReferenceReturn::read(t, rapid));
+    let reference_return = table.table("return", |t| ReferenceReturn::read(t, [rapid, acceleration, jerk]));
     MachineAxis {
         letter,
         rotary: kind.unwrap_or(false),
@@ -293,7 +293,7 @@ fn axis(table: &mut Table, letter: u8) -> MachineAxis {
         reference_points,
         approach: table.number("approach").unwrap_or(0.0),
         limit_switches: limit_switches(table),
-        reference_return: reference_return.unwrap_or_else(|| ReferenceReturn::default_for(rapid)),
+        reference_return,
     }
 }
 

@@ -22,7 +22,7 @@ pub use file::{CodeTimes, MachineAxis, MachineFile, Wiring, builtin_machine, bui
 pub use interface::{DecodedLine, HandshakeTimes};
 pub use logic::{LogicFate, LogicTable, LogicTrouble, LogicWait, Watched};
 pub use path_table::PathTable;
-pub use reference_return::{ReferenceReturn, ReturnPiece};
+pub use reference_return::ReferenceReturn;
 pub use signals::{Fin, LimitSwitch, Magazine, MagazineFacts, Signal, Spindle, SpindleFacts, Trouble, Waiting};
 pub use travel::Travel;
 pub use virtual_machine::{LogicAlarm, Machine, Refusal, VirtualMachine, Wait};

@@ -44,6 +44,8 @@ pub enum Signal {
     Oriented,
     /// The overtravel switch of an axis, in its positive or negative direction.
     Limit(u8, bool),
+    /// The switch that an axis' dog actuates.
+    Deceleration(u8),
     /// A line that the builder has named.
     Line(u8),
 }
@@ -81,6 +83,7 @@ impl Signal {
             Signal::SpeedReached => "SAR".to_owned(),
             Signal::SpindleStands => "ZSP".to_owned(),
             Signal::Oriented => "ORE".to_owned(),
+            Signal::Deceleration(index) => format!("DEC{}", axis(index)),
             Signal::Line(index) => line(index),
             Signal::Limit(index, positive) => format!("OT{}{}", if positive { '+' } else { '-' }, axis(index)),
         }

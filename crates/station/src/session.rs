@@ -9,6 +9,7 @@ mod execution;
 mod live;
 mod locks;
 mod rehearsal;
+mod searching;
 mod states;
 mod telling;
 mod trial;
@@ -77,6 +78,10 @@ pub struct Session<L> {
     approach: Option<Point>,
     /// In a trial: what the program has asked.
     asked: Option<trial::Asked>,
+    /// How long G28 has searched; the move is executed as one that took as long.
+    searched: Option<Seconds>,
+    /// Axes that the block in execution is to return, and has not yet.
+    unfound: AxisSet,
     /// From one setpoint to the next, s.
     servo_period: f64,
     /// No more time passes than to this one.
@@ -180,6 +185,8 @@ impl<L: Library> Session<L> {
             dwelling: None,
             approach: None,
             asked: None,
+            searched: None,
+            unfound: AxisSet::NONE,
             servo_period: machine.limits().servo_period,
             deadline: None,
             hold_waits: false,

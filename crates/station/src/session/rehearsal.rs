@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use base::{Seconds, SourceId};
+use base::{AxisSet, Seconds, SourceId};
 use machine::Machine;
 use meaning::Quantity;
 use motion::Ahead;
@@ -243,6 +243,8 @@ impl<L: Library> Session<L> {
             dwelling: None,
             approach: None,
             asked: None,
+            searched: None,
+            unfound: AxisSet::NONE,
             servo_period: self.servo_period,
             deadline: None,
             hold_waits: false,

@@ -1,6 +1,6 @@
 //! What brings the control into another state than a program does: power, RESET, emergency stop, the end of a program.
 
-use base::{AXES, Alarm, Condition, Place};
+use base::{AXES, Alarm, AxisSet, Condition, Place};
 use dialect::{Fate, Occasion, StateItem};
 use machine::{EventKind, LogicFate, Machine, ResetCause};
 
@@ -125,6 +125,11 @@ impl<L: Library> Session<L> {
         let position = self.counted_position();
         self.motion.upstream.stand_at(&position);
         self.interpreter_mut().reset(occasion, &position, refused);
+        // What was to be returned and has not arrived is not.
+        let unfound = std::mem::replace(&mut self.unfound, AxisSet::NONE);
+        if !unfound.is_empty() {
+            self.interpreter_mut().lose_reference_points(unfound);
+        }
         if occasion != Occasion::ProgramEnd && self.inputs.rwd == Some(true) {
             // The rewind input is held on: not only an end of a program rewinds.
             self.interpreter_mut().rewind();

@@ -39,6 +39,7 @@ const fn signal_row(signal: Signal) -> Option<u32> {
         Signal::SpeedReached => 1021,
         Signal::Oriented => 1022,
         Signal::Limit(..) => 1030,
+        Signal::Deceleration(..) => 1031,
         // In the builder's order: outputs, then inputs.
         Signal::Line(line) => 1100 + line as u32,
     })
