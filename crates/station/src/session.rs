@@ -70,6 +70,8 @@ pub struct Session<L> {
     met: rehearsal::Met,
     /// Moves take their time.
     live: bool,
+    /// Somebody works the control.
+    attended: bool,
     under_way: Option<live::UnderWay>,
     by_hand: Option<by_hand::ByHand>,
     /// A dwell is under way: since when, s, stops on the way not counted in.
@@ -180,6 +182,7 @@ impl<L: Library> Session<L> {
             rehearsal: None,
             met: None,
             live: false,
+            attended: false,
             under_way: None,
             by_hand: None,
             dwelling: None,

@@ -13,7 +13,9 @@ pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
     let mut session = open(&arguments.file, &arguments.setting)?;
     session.interpreter_mut().tell_variables(true);
     session.tell_signals(arguments.io);
-    if arguments.time || arguments.io {
+    // Where a switch stops a move is a matter of how the axes brake.
+    let stops = !session.configuration().machine.limit_switches().is_empty();
+    if arguments.time || arguments.io || stops {
         session.plan_ahead();
     }
     let configuration = session.configuration().clone();

@@ -186,7 +186,7 @@ impl<L: Library> Session<L> {
                 // The builder's logic has got on meanwhile, and gives up later.
                 Wait::Still if limit < deadline => {}
                 // Where nobody works the control, nobody gives what is waited for.
-                Wait::Still if !self.live && limit == f64::INFINITY => {
+                Wait::Still if !self.attended && limit == f64::INFINITY => {
                     if let Some(waiting) = self.machine.waiting() {
                         self.raise(self.never_comes(&waiting));
                     }

@@ -36,6 +36,7 @@ impl<L: Library> Session<L> {
     pub fn run_live(&mut self) {
         self.plan_ahead();
         self.live = true;
+        self.attended = true;
     }
 
     /// As [`Session::next`], but no farther than to this time; `None` when it has come.

@@ -92,8 +92,11 @@ impl Lent {
 impl<L: Library> Session<L> {
     /// Moves are planned together with those that follow them: cutting moves run into each other as fast as the axes
     /// allow, and times are what they would be on the machine. Without it every move begins and ends at rest.
+    ///
+    /// Where the machine has overtravel switches, moves take their time too: one may end in its middle.
     pub fn plan_ahead(&mut self) {
         self.motion.plan_ahead();
+        self.live |= !self.machine.switches().is_empty();
     }
 
     /// As [`Session::plan_ahead`]; how each cutting move is driven is kept for [`Session::stretches`].
@@ -238,6 +241,7 @@ impl<L: Library> Session<L> {
             rehearsal: None,
             met: Some(VecDeque::new()),
             live: false,
+            attended: false,
             under_way: None,
             by_hand: None,
             dwelling: None,
