@@ -80,6 +80,8 @@ pub struct Session<L> {
     approach: Option<Point>,
     /// In a trial: what the program has asked.
     asked: Option<trial::Asked>,
+    /// Axes whose dog was on when that was told last.
+    on_dog: AxisSet,
     /// How long G28 has searched; the move is executed as one that took as long.
     searched: Option<Seconds>,
     /// Axes that the block in execution is to return, and has not yet.
@@ -189,6 +191,7 @@ impl<L: Library> Session<L> {
             approach: None,
             asked: None,
             searched: None,
+            on_dog: AxisSet::NONE,
             unfound: AxisSet::NONE,
             servo_period: machine.limits().servo_period,
             deadline: None,

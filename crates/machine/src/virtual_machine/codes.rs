@@ -337,8 +337,9 @@ impl VirtualMachine {
         if self.handshake.is_busy() {
             if self.handshake.has_strobes() {
                 self.strobes_off(now, told);
+            } else if std::mem::take(&mut self.den) {
+                self.edge(Signal::Den, false, now, &self.place_out(), told);
             }
-            self.den = false;
             for (code, nth, strobe) in self.handshake.all_out() {
                 self.code_lines((code, nth), false, now, &self.place_out(), told);
                 if strobe {
@@ -351,6 +352,11 @@ impl VirtualMachine {
         }
         self.holds_motion = false;
         self.detach_logic();
+    }
+
+    /// True if the lines of a code are still taken by one of another block.
+    pub fn is_taken(&self, code: CodeOut, place: &Place) -> bool {
+        self.handshake.is_taken(code.line, place)
     }
 
     /// True while a code is out.

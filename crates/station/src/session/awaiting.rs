@@ -5,7 +5,7 @@
 use base::{Alarm, Condition, Place};
 use machine::{DecodedLine, Machine, Signal, Trouble, Wait, Waiting};
 use meaning::{Close, CodeLine};
-use path::Shape;
+use path::{Shape, Shaped};
 
 use super::Session;
 use crate::configuration::{Configuration, Inputs};
@@ -138,6 +138,16 @@ impl<L: Library> Session<L> {
         if !self.machine.awaits() && self.codes.is_empty() {
             return false;
         }
+        if self.machine.awaits() && self.lines_are_taken() {
+            let place = self.motion.upstream.current().place;
+            if !self.await_machine(&place) {
+                self.awaited = true;
+                return true;
+            }
+            if self.alarm.is_some() {
+                return true;
+            }
+        }
         let shape = &self.motion.upstream.current().shape;
         let (asks, place) = (self.asks_for_answers(shape), self.motion.upstream.current().place);
         if !asks {
@@ -151,6 +161,16 @@ impl<L: Library> Session<L> {
         }
         self.awaited = true;
         true
+    }
+
+    /// Codes are to go out now whose lines are still taken: the program has not waited for those before.
+    fn lines_are_taken(&self) -> bool {
+        let gathers = matches!(self.motion.upstream.current().shape, Shape::Code(code) if !code.after_motion);
+        let taken = |shaped: &Shaped| match shaped.shape {
+            Shape::Code(code) => self.machine.is_taken(code, &shaped.place),
+            _ => false,
+        };
+        !gathers && self.codes.iter().any(taken)
     }
 
     fn asks_for_answers(&self, shape: &Shape) -> bool {

@@ -157,7 +157,7 @@ impl<L: Library> Session<L> {
         let dog = self.configuration.machine.axes.get(axis).and_then(|axis| axis.reference_return);
         if let (HandMove::Home, Some(_), Some(search)) = (how, dog, self.search(axis, true)) {
             self.forget_rehearsal();
-            self.by_hand = Some(ByHand::searching(how, from, vec![search], false));
+            self.begin_searches(vec![search], false);
             return Ok(());
         }
         let travel = self.configuration.machine.travel();

@@ -248,6 +248,7 @@ impl<L: Library> Session<L> {
             approach: None,
             asked: None,
             searched: None,
+            on_dog: AxisSet::NONE,
             unfound: AxisSet::NONE,
             servo_period: self.servo_period,
             deadline: None,

@@ -161,6 +161,16 @@ impl<L: Library> Session<L> {
         Some(Search::new(axis, from, point, dog, speeds, [limits.axes[axis].acceleration, limits.jerk(axis)]))
     }
 
+    /// Axes begin to return.
+    pub(super) fn begin_searches(&mut self, searches: Vec<Search>, of_program: bool) {
+        let now = self.time().0;
+        for search in &searches {
+            self.tell_dog(search.axis, search.on_dog, now);
+        }
+        let from = *self.machine.position();
+        self.by_hand = Some(ByHand::searching(HandMove::Home, from, searches, of_program));
+    }
+
     /// Towards the dog, as the rapid override has it, mm/s.
     pub(super) fn search_speed(&self, dog: &ReferenceReturn) -> f64 {
         self.motion.overrides().rapid(dog.feeds[0] / 60.0)
@@ -185,12 +195,17 @@ impl<L: Library> Session<L> {
         self.machine.wait_to_move(&place, &mut self.events);
         let searches = self.returned().iter().filter_map(|axis| self.search(axis, axes.has(axis))).collect();
         self.rest();
-        self.by_hand = Some(ByHand::searching(HandMove::Home, *self.machine.position(), searches, true));
+        self.begin_searches(searches, true);
         true
     }
 
-    /// What an axis' dog says.
+    /// What an axis' dog says, if that is new. It is listened to on the way to a reference point only.
     pub(super) fn tell_dog(&mut self, axis: usize, on: bool, at: f64) {
+        if self.on_dog.has(axis) == on {
+            return;
+        }
+        let this = AxisSet::only(axis);
+        self.on_dog = if on { self.on_dog.or(this) } else { self.on_dog.without(this) };
         let time = base::Seconds(at);
         self.machine.tell_input(Signal::Deceleration(axis as u8), on, time, &mut self.events);
     }
