@@ -41,8 +41,12 @@ PICTURES += [
     (f"docs/motion/{name}.svg", [f"{MOTION}/{program}", *arguments], 0)
     for name, (program, *arguments) in MOTION_PICTURES.items()
 ]
+PICTURES += [
+    ("docs/builders-logic/index-table.svg",
+     ["examples/builders-logic/index-table.nc", "--machine", "index-table", "--timing", "--during", "0.8,2.2"], 0),
+]
 # The pages that show them, but for the plate's, which is the README's.
-PAGES = ["docs/compensation.md", "docs/motion.md"]
+PAGES = ["docs/builders-logic.md", "docs/compensation.md", "docs/motion.md"]
 
 
 def drawn(arguments: list[str], code: int) -> bytes:

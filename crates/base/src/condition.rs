@@ -309,6 +309,10 @@ conditions! {
     FinEarly = "fin-early",
     /// The machine does not take its answer back. Values: the code's letter and number, the time waited.
     FinStuck = "fin-stuck",
+    /// A step of the builder's logic has waited too long. Values: the code's letter and number, what for.
+    LogicTimeOut = "logic-time-out",
+    /// A code names no position of what it is to turn. Values: its letter and number.
+    LogicPositionMissing = "logic-position-missing",
     /// An axis has run onto its overtravel switch. Values: where that is.
     LimitSwitchReached = "limit-switch-reached",
     /// The drive of an axis has failed.

@@ -34,7 +34,8 @@ fn show(file: &str, alarm: &Alarm, control: &Control, machine: &MachineFile, byt
     let excerpt = Excerpt::new(file, alarm.place.line, bytes, column, alarm.span.len);
     let axis = alarm.axis.and_then(|axis| machine.axes.get(usize::from(axis)));
     let axis = axis.map(|axis| (char::from(axis.letter), axis.rotary));
-    (control.diagnose(alarm, &excerpt.word, axis), excerpt)
+    let word = machine.words_of(alarm);
+    (control.diagnose(alarm, word.as_deref().unwrap_or(&excerpt.word), axis), excerpt)
 }
 
 /// The warning in words, the line it stands on and those of its labels; `None` if the block itself allows it.

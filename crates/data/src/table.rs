@@ -266,11 +266,12 @@ impl<'d, 't> Entry<'d, 't> {
 
     /// The value as a list.
     pub fn list(self) -> Option<Vec<Entry<'d, 't>>> {
-        let Entry { key, at, value, document } = self;
+        let Entry { key, value, document, .. } = self;
         let range = value.span();
         match value.into_inner() {
             DeValue::Array(items) => Some(
-                items.into_iter().map(|value| Entry { key: key.clone(), at: at.clone(), value, document }).collect(),
+                // What is wrong with one of several tables stands there, not at the key of all.
+                items.into_iter().map(|value| Entry { key: key.clone(), at: value.span(), value, document }).collect(),
             ),
             _ => {
                 document.report(range, format!("`{key}` wants a list"));

@@ -2,7 +2,9 @@
 //!
 //! `name` and each axis' `kind` and `travel` are required; any other missing key has its default.
 
-use base::{AXES, AxisSet, Point, Seconds};
+use std::sync::Arc;
+
+use base::{AXES, Alarm, AxisSet, Condition, Point, Seconds};
 use data::{DataError, Document, Table};
 use include_dir::{Dir, include_dir};
 use meaning::{AxisFacts, CodeLine, CodeRules, Kinematics, MachineFacts};
@@ -10,6 +12,7 @@ use motion::{AxisLimits, Limits};
 
 use crate::interface::{HandshakeTimes, default_handshake_times, handshake_times};
 use crate::kinematics::kinematics;
+use crate::logic::{CodesOut, LogicTable, logic};
 use crate::path_table::{PathTable, not_negative, path, positive};
 use crate::reference_return::ReferenceReturn;
 use crate::signals::{LimitSwitch, MagazineFacts, SpindleFacts, magazine, spindle};
@@ -82,8 +85,8 @@ pub struct MachineAxis {
     pub approach: f64,
     /// Where the overtravel switches are, machine coordinates; `None` where the travel is all there is.
     pub limit_switches: Option<[f64; 2]>,
-    /// How it returns to its reference point by hand.
-    pub reference_return: ReferenceReturn,
+    /// Its dog, by which it returns to its reference point; without one it goes straight there.
+    pub reference_return: Option<ReferenceReturn>,
 }
 
 /// A machine.
@@ -113,6 +116,8 @@ pub struct MachineFile {
     pub wiring: Wiring,
     /// Characters that the tape reader reads in a second; 0 is as fast as they are wanted.
     pub tape_speed: f64,
+    /// What the builder's logic does with codes.
+    pub logic: Arc<LogicTable>,
     /// How the axes that turn move the tip of the tool; `None` if the builder does not say.
     pub kinematics: Option<Kinematics>,
 }
@@ -162,6 +167,12 @@ impl MachineFile {
         self.axes.iter().enumerate().filter_map(of).flatten().collect()
     }
 
+    /// What an alarm is about in the builder's own words, if it is about his logic.
+    pub fn words_of(&self, alarm: &Alarm) -> Option<String> {
+        let is_late = alarm.condition == Condition::LogicTimeOut;
+        is_late.then(|| self.logic.alarm_in_words(alarm.values[2])).flatten()
+    }
+
     /// The rapid rates, mm/min, as a point.
     pub fn rapid_rates(&self) -> Point {
         let mut rates = [0.0; AXES];
@@ -199,6 +210,8 @@ fn machine(root: &mut Table) -> MachineFile {
         Some(functions) => functions,
         None => default_functions(root, &axes),
     };
+    let out = CodesOut { digits: codes.digits, b_axis };
+    let logic = root.table("logic", |t| logic(t, out)).unwrap_or_default();
     MachineFile {
         name,
         description,
@@ -212,6 +225,7 @@ fn machine(root: &mut Table) -> MachineFile {
         magazine,
         kinematics,
         tape_speed,
+        logic: Arc::new(logic),
         wiring: wiring.unwrap_or_else(|| Wiring { eop: default_eop(), rwd: default_rwd() }),
     }
 }
@@ -271,7 +285,7 @@ fn axis(table: &mut Table, letter: u8) -> MachineAxis {
     let max_feed = positive(table, "max_feed", 6000.0);
     let acceleration = positive(table, "acceleration", 500.0);
     let jerk = not_negative(table, "jerk", 0.0);
-    let reference_return = table.table("return", |t| ReferenceReturn::read(t, rapid));
+    let reference_return = table.table("return", |t| ReferenceReturn::read(t, [rapid, acceleration, jerk]));
     MachineAxis {
         letter,
         rotary: kind.unwrap_or(false),
@@ -283,7 +297,7 @@ fn axis(table: &mut Table, letter: u8) -> MachineAxis {
         reference_points,
         approach: table.number("approach").unwrap_or(0.0),
         limit_switches: limit_switches(table),
-        reference_return: reference_return.unwrap_or_else(|| ReferenceReturn::default_for(rapid)),
+        reference_return,
     }
 }
 

@@ -20,23 +20,14 @@ pub struct ReferenceReturn {
     pub feeds: [f64; 2],
 }
 
-/// A piece of the return.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct ReturnPiece {
-    /// Where it ends, machine coordinate.
-    pub to: f64,
-    /// How fast, mm/min or degrees/min.
-    pub feed: f64,
-}
-
 impl ReferenceReturn {
     /// What missing keys mean: returned in the positive direction, a dog of 30 that ends 5 before the point, a grid of 10.
     pub(crate) fn default_for(rapid: f64) -> ReferenceReturn {
         ReferenceReturn { positive: true, dog: [5.0, 30.0], grid: 10.0, feeds: [rapid / 2.0, 300.0] }
     }
 
-    /// Reads `[axes.X.return]`.
-    pub(crate) fn read(table: &mut Table, rapid: f64) -> ReferenceReturn {
+    /// Reads `[axes.X.return]` of an axis with this rapid rate, acceleration and jerk (0 is not limited).
+    pub(crate) fn read(table: &mut Table, [rapid, acceleration, jerk]: [f64; 3]) -> ReferenceReturn {
         let missing = ReferenceReturn::default_for(rapid);
         let place = table.range();
         let read = ReferenceReturn {
@@ -46,8 +37,23 @@ impl ReferenceReturn {
             feeds: [positive(table, "search_feed", missing.feeds[0]), positive(table, "creep_feed", missing.feeds[1])],
         };
         if read.dog[0] >= read.grid {
-            table
-                .error(place, "dog_end must be less than grid: behind the dog the first mark of the grid is the point");
+            let why = "dog_end must be less than grid: behind the dog the first mark of the grid is the point";
+            table.error(place.clone(), why);
+        }
+        if read.feeds[1] > read.feeds[0] {
+            table.error(place.clone(), "creep_feed must not be greater than search_feed");
+        }
+        // On its way to stand the axis must have met the dog only, and creep before that ends.
+        let [search, creep] = read.feeds.map(|feed| {
+            let speed = feed / 60.0;
+            speed * speed / (2.0 * acceleration) + if jerk > 0.0 { speed * acceleration / (2.0 * jerk) } else { 0.0 }
+        });
+        if search > read.dog[1] {
+            let why = format!("dog_length must be {search} at least: so far the axis runs until it stands");
+            table.error(place.clone(), why);
+        }
+        if creep > read.dog[0] {
+            table.error(place, format!("dog_end must be {creep} at least: so far the axis creeps until it stands"));
         }
         read
     }
@@ -65,17 +71,11 @@ impl ReferenceReturn {
         position >= first.min(last) && position <= first.max(last)
     }
 
-    /// The pieces of the way from here: back in front of the dog if need be, to the dog, over it and to the point.
-    ///
-    /// At the dog's beginning the axis begins to slow down from the search feed to the creep feed.
-    pub fn pieces(&self, point: f64, position: f64) -> impl Iterator<Item = ReturnPiece> {
+    /// Where an axis must first go back to that stands on the dog or behind it.
+    pub fn back(&self, point: f64, position: f64) -> Option<f64> {
         let [first, _] = self.dog_at(point);
         let sign = if self.positive { 1.0 } else { -1.0 };
-        let [search, creep] = self.feeds;
-        let beyond = (position - first) * sign >= 0.0;
-        let back = beyond.then_some(ReturnPiece { to: first - sign * self.grid, feed: search });
-        let rest = [ReturnPiece { to: first, feed: search }, ReturnPiece { to: point, feed: creep }];
-        back.into_iter().chain(rest)
+        ((position - first) * sign >= 0.0).then_some(first - sign * self.grid)
     }
 }
 
@@ -84,13 +84,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_axis_meets_the_dog_and_creeps_to_the_point() {
+    fn an_axis_on_the_dog_or_behind_it_goes_back_first() {
         let axis = ReferenceReturn::default_for(12_000.0);
-        let way = |from: f64| axis.pieces(0.0, from).map(|piece| (piece.to, piece.feed)).collect::<Vec<_>>();
-        assert_eq!(way(-200.0), [(-35.0, 6000.0), (0.0, 300.0)]);
-        assert_eq!(way(-20.0), [(-45.0, 6000.0), (-35.0, 6000.0), (0.0, 300.0)], "it begins on the dog");
+        assert_eq!([-200.0, -20.0, 3.0].map(|from| axis.back(0.0, from)), [None, Some(-45.0), Some(-45.0)]);
         assert!(axis.is_on_dog(0.0, -20.0) && !axis.is_on_dog(0.0, -4.0));
         let other = ReferenceReturn { positive: false, ..axis };
-        assert_eq!(other.dog_at(100.0), [135.0, 105.0]);
+        assert_eq!((other.dog_at(100.0), other.back(100.0, 90.0)), ([135.0, 105.0], Some(145.0)));
     }
 }

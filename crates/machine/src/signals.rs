@@ -44,6 +44,10 @@ pub enum Signal {
     Oriented,
     /// The overtravel switch of an axis, in its positive or negative direction.
     Limit(u8, bool),
+    /// The switch that an axis' dog actuates.
+    Deceleration(u8),
+    /// A line that the builder has named.
+    Line(u8),
 }
 
 const fn letter(line: CodeLine) -> char {
@@ -56,8 +60,13 @@ const fn letter(line: CodeLine) -> char {
 }
 
 impl Signal {
-    /// Its name. `decoded` names the line of an M code, `axis` the letter of an axis.
-    pub fn name(self, decoded: impl Fn(u32) -> String, axis: impl Fn(u8) -> String) -> String {
+    /// Its name. `decoded` names the line of an M code, `axis` the letter of an axis, `line` one of the builder's.
+    pub fn name(
+        self,
+        decoded: impl Fn(u32) -> String,
+        axis: impl Fn(u8) -> String,
+        line: impl Fn(u8) -> String,
+    ) -> String {
         // The second and third code of a block have lines of their own: M2, M3.
         let nth = |nth: u8| if nth == 0 { String::new() } else { (nth + 1).to_string() };
         match self {
@@ -74,6 +83,8 @@ impl Signal {
             Signal::SpeedReached => "SAR".to_owned(),
             Signal::SpindleStands => "ZSP".to_owned(),
             Signal::Oriented => "ORE".to_owned(),
+            Signal::Deceleration(index) => format!("DEC{}", axis(index)),
+            Signal::Line(index) => line(index),
             Signal::Limit(index, positive) => format!("OT{}{}", if positive { '+' } else { '-' }, axis(index)),
         }
     }
@@ -125,7 +136,7 @@ mod tests {
         assert_eq!(bits(30, 2).collect::<Vec<_>>(), [(1, 1), (1, 2)]);
         assert_eq!(bits(9, 2).collect::<Vec<_>>(), [(0, 1), (0, 8)]);
         assert_eq!(bits(0, 2).count(), 0);
-        let name = |signal: Signal| signal.name(|code| format!("M{code:02}R"), |_| "X".to_owned());
+        let name = |signal: Signal| signal.name(|code| format!("M{code:02}R"), |_| "X".to_owned(), |_| String::new());
         assert_eq!(name(Signal::Bit(CodeLine::M, 0, 1, 2)), "M22");
         assert_eq!(name(Signal::Bit(CodeLine::M, 1, 0, 8)), "M2-18");
         assert_eq!(name(Signal::Strobe(CodeLine::B, 0)), "BF");

@@ -4,8 +4,12 @@
 //! the motion go out when it has ended, one block's together, and are waited for before anything else moves.
 
 mod codes;
+mod logic;
 
 pub use codes::Wait;
+pub use logic::LogicAlarm;
+
+use std::sync::Arc;
 
 use base::{Alarm, AxisSet, Condition, Place, Point, Seconds};
 use dialect::StrokeCheck;
@@ -18,6 +22,7 @@ use crate::drives::Drives;
 use crate::event::{Event, EventKind};
 use crate::file::{CodeTimes, MachineFile};
 use crate::interface::DecodedLine;
+use crate::logic::Logic;
 use crate::signals::{Handshake, LimitSwitch, Magazine, Spindle};
 use crate::travel::{Exit, Met, Travel, along, until};
 
@@ -83,6 +88,8 @@ pub struct VirtualMachine {
     handshake: Handshake,
     spindle: Spindle,
     magazine: Magazine,
+    /// The builder's logic, if there is one.
+    logic: Option<Logic>,
     /// M codes with a line of their own, and what that drives.
     decoded: Vec<DecodedLine>,
     /// Overtravel switches.
@@ -119,6 +126,7 @@ impl VirtualMachine {
             handshake: Handshake::new(file.handshake),
             spindle: Spindle::new(file.spindle.clone()),
             magazine: Magazine::new(file.magazine.clone()),
+            logic: (!file.logic.is_empty()).then(|| Logic::new(Arc::clone(&file.logic))),
             decoded: Vec::new(),
             switches: file.limit_switches(),
             tells_signals: false,

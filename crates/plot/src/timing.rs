@@ -14,7 +14,7 @@ use crate::sheet::draw_header;
 use crate::text::width;
 
 const WIDTH: f64 = 1200.0;
-/// The room for the names of rows.
+/// The least room for the names of rows.
 const NAMES: f64 = 110.0;
 const TOP: f64 = 130.0;
 const ROW: f64 = 34.0;
@@ -131,7 +131,8 @@ impl Timing {
         let [from, to] = self.window.unwrap_or([0.0, self.seconds * 1.04]);
         let to = if to > from { to } else { from + 1.0 };
         let bottom = TOP + ROW * seen.len() as f64;
-        let left = MARGIN + NAMES;
+        let widest = seen.iter().map(|(_, name)| width(name, NAME)).fold(0.0, f64::max);
+        let left = MARGIN + NAMES.max(widest + 14.0);
         let sheet =
             Sheet { rect: Rect { x: left, y: TOP, width: WIDTH - MARGIN - left, height: bottom - TOP }, from, to };
         let height = bottom + 66.0;

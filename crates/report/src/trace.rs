@@ -12,6 +12,8 @@ pub struct Tracer<'c> {
     control: &'c Control,
     machine: String,
     axes: Vec<String>,
+    /// The builder's lines.
+    lines: Vec<String>,
     /// Every event carries its time.
     pub with_time: bool,
     /// The answers to codes are events too.
@@ -43,7 +45,13 @@ impl<'c> Tracer<'c> {
     /// A tracer for a control on a machine of this name with these axis letters, in the machine's order.
     pub fn new(control: &'c Control, machine: &str, letters: impl Iterator<Item = u8>) -> Tracer<'c> {
         let axes = letters.map(|letter| char::from(letter.to_ascii_lowercase()).to_string()).collect();
-        Tracer { control, machine: machine.to_owned(), axes, with_time: false, with_io: false, main: None }
+        let (machine, lines) = (machine.to_owned(), Vec::new());
+        Tracer { control, machine, axes, lines, with_time: false, with_io: false, main: None }
+    }
+
+    /// The lines that the machine's builder has named, in his order.
+    pub fn name_lines<'n>(&mut self, names: impl Iterator<Item = &'n str>) {
+        self.lines = names.map(str::to_owned).collect();
     }
 
     /// Appends the event's line, if it has one. `name` gives programs their names, `diagnostic` says an alarm in words.
@@ -157,7 +165,8 @@ impl<'c> Tracer<'c> {
     /// What a line between control and machine is called.
     pub fn signal_name(&self, signal: Signal) -> String {
         let decoded = |code| self.control.m_code(code).and_then(|row| row.decoded.clone()).unwrap_or_default();
-        signal.name(decoded, |axis| self.axis_name(usize::from(axis)).to_ascii_uppercase())
+        let line = |line: u8| self.lines.get(usize::from(line)).cloned().unwrap_or_default();
+        signal.name(decoded, |axis| self.axis_name(usize::from(axis)).to_ascii_uppercase(), line)
     }
 
     fn axis_name(&self, axis: usize) -> &str {

@@ -95,6 +95,8 @@ pub struct Configuration {
     pub switches: SessionSwitches,
     /// Signals held by hand.
     pub inputs: Inputs,
+    /// Inputs of the builder's that are held by hand.
+    pub lines: Vec<(u8, bool)>,
 }
 
 fn wrong(message: impl Into<String>) -> ConfigurationError {
@@ -129,6 +131,7 @@ impl Configuration {
             contact: Vec::new(),
             switches: SessionSwitches::default(),
             inputs: Inputs::default(),
+            lines: Vec::new(),
             control,
         };
         configuration.fit_axes(setups)?;
@@ -278,6 +281,10 @@ impl Configuration {
             set.map_err(|error| setup.refuse(&["switches", name], error))?;
         }
         for (name, on) in &setup.inputs {
+            if let Some(line) = self.machine.logic.input(name) {
+                self.lines.push((line, *on));
+                continue;
+            }
             self.inputs.set(name, *on).map_err(|error| setup.refuse(&["inputs", name], error.0))?;
         }
         Ok(())

@@ -153,7 +153,11 @@ impl<L: Library> Operator<L> {
             CodeLine::B => 'B',
         };
         let state = if waiting.on { "FIN" } else { "FIN off" };
-        format!("{state} after {letter}{:02}", waiting.code.code)
+        let code = format!("{letter}{:02}", waiting.code.code);
+        match self.session.logic_waiting(waiting) {
+            Some(step) => format!("{state} after {code}: {step}"),
+            None => format!("{state} after {code}"),
+        }
     }
 
     /// The program in which the line being executed stands; the selected one while nothing is executed.
@@ -195,7 +199,8 @@ fn position<L: Library>(session: &Session<L>) -> Value {
 fn machine<L: Library>(session: &Session<L>) -> Value {
     let percents = session.percents();
     let percent = |percent: u16| Value::Number(f64::from(percent));
-    Value::object([
+    let lines: Vec<_> = session.logic_lines().map(|(name, on)| (name.to_owned(), Value::Truth(on))).collect();
+    let mut shown = vec![
         ("name", Value::text(&session.configuration().machine.name)),
         ("position", axes(session, &session.position())),
         ("reference", reference(session)),
@@ -208,7 +213,11 @@ fn machine<L: Library>(session: &Session<L>) -> Value {
                 ("spindle", percent(percents.spindle)),
             ]),
         ),
-    ])
+    ];
+    if !lines.is_empty() {
+        shown.push(("lines", Value::Object(lines)));
+    }
+    Value::Object(shown.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
 }
 
 /// Which axes have been returned to their reference point.
@@ -279,5 +288,7 @@ fn diagnose<L: Library>(session: &mut Session<L>, alarm: &Alarm) -> Diagnostic {
     let configuration = session.configuration();
     let axis = alarm.axis.and_then(|axis| configuration.machine.axes.get(usize::from(axis)));
     let axis = axis.map(|axis| (char::from(axis.letter), axis.rotary));
-    configuration.control.diagnose(alarm, &String::from_utf8_lossy(&bytes), axis)
+    let word = configuration.machine.words_of(alarm);
+    let word = word.unwrap_or_else(|| String::from_utf8_lossy(&bytes).into_owned());
+    configuration.control.diagnose(alarm, &word, axis)
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use machine::Fin;
 
 /// What breaks.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Fault {
     /// The machine answers the next code wrongly.
     Fin(Fin),
@@ -15,6 +15,8 @@ pub enum Fault {
     Limit(u8, bool, f64),
     /// The drive of an axis fails.
     Servo(u8),
+    /// An input of the builder's stays as it is: its name.
+    Input(String),
     /// The power fails.
     Power,
 }
@@ -27,7 +29,7 @@ const FINS: [(&str, Fin); 3] = [("never", Fin::Never), ("early", Fin::Early), ("
 /// # Errors
 /// What is wrong with it.
 pub(crate) fn read_fault(words: &[&str]) -> Result<Fault, String> {
-    const KNOWN: &str = "fin never|early|stuck, spindle-speed, limit X + at 12.5, servo X, power";
+    const KNOWN: &str = "fin never|early|stuck, spindle-speed, limit X + at 12.5, servo X, input NAME stuck, power";
     let letter = |word: &str| match word.as_bytes() {
         [letter @ b'A'..=b'Z'] => Ok(*letter),
         _ => Err(format!("`{word}` is no axis letter")),
@@ -43,6 +45,7 @@ pub(crate) fn read_fault(words: &[&str]) -> Result<Fault, String> {
             _ => Err(format!("`{at}` is no number")),
         },
         ["servo", axis] => Ok(Fault::Servo(letter(axis)?)),
+        ["input", name, "stuck"] => Ok(Fault::Input((*name).to_owned())),
         ["power"] => Ok(Fault::Power),
         _ => Err(format!("there is no fault `{}`; the faults are {KNOWN}", words.join(" "))),
     }
@@ -60,6 +63,7 @@ impl fmt::Display for Fault {
                 write!(f, "limit {} {} at {at}", char::from(*axis), if *positive { '+' } else { '-' })
             }
             Fault::Servo(axis) => write!(f, "servo {}", char::from(*axis)),
+            Fault::Input(name) => write!(f, "input {name} stuck"),
             Fault::Power => f.write_str("power"),
         }
     }

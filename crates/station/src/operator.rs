@@ -215,7 +215,7 @@ impl<L: Shelf> Operator<L> {
                 self.session.begin_rounds();
                 self.last(until, false);
             }
-            Action::Fault(fault) => return Ok(self.break_down(*fault)),
+            Action::Fault(fault) => return Ok(self.break_down(fault.clone())),
             Action::Key(name) => return Ok(self.press_key(name)),
             Action::Select(name) => return Ok(self.select(name)),
             Action::Mode(name) => return Ok(self.turn_mode(name)),
@@ -268,6 +268,17 @@ impl<L: Shelf> Operator<L> {
     fn break_down(&mut self, fault: Fault) -> Result<(), String> {
         if let Fault::Limit(letter, ..) | Fault::Servo(letter) = fault {
             memory::axis_of(&self.session.configuration().machine, letter).map_err(|error| error.0)?;
+        }
+        if let Fault::Input(name) = &fault {
+            let logic = &self.session.configuration().machine.logic;
+            if logic.input(name).is_none() {
+                let known: Vec<_> =
+                    logic.lines.iter().filter(|line| !line.output).map(|line| line.name.as_str()).collect();
+                return Err(match known[..] {
+                    [] => "the machine's file names no inputs".to_owned(),
+                    _ => format!("the machine has no input `{name}`; it has {}", known.join(", ")),
+                });
+            }
         }
         self.session.break_down(fault);
         Ok(())

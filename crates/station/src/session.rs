@@ -10,6 +10,7 @@ mod live;
 mod locks;
 mod pointer;
 mod rehearsal;
+mod searching;
 mod states;
 mod tape_reader;
 mod telling;
@@ -71,6 +72,8 @@ pub struct Session<L> {
     met: rehearsal::Met,
     /// Moves take their time.
     live: bool,
+    /// Somebody works the control.
+    attended: bool,
     under_way: Option<live::UnderWay>,
     by_hand: Option<by_hand::ByHand>,
     /// A dwell is under way: since when, s, stops on the way not counted in.
@@ -81,6 +84,12 @@ pub struct Session<L> {
     reader: Option<tape_reader::TapeReader>,
     /// In a trial: what the program has asked.
     asked: Option<trial::Asked>,
+    /// Axes whose dog was on when that was told last.
+    on_dog: AxisSet,
+    /// How long G28 has searched; the move is executed as one that took as long.
+    searched: Option<Seconds>,
+    /// Axes that the block in execution is to return, and has not yet.
+    unfound: AxisSet,
     /// From one setpoint to the next, s.
     servo_period: f64,
     /// No more time passes than to this one.
@@ -160,6 +169,7 @@ impl<L: Library> Session<L> {
             contact,
             switches,
             inputs,
+            lines,
         } = configuration.clone();
         let mut interpreter = Interpreter::new(control, fitting.clone(), machine.facts(), memory, &start, base_origin);
         interpreter.lose_reference_points(not_returned);
@@ -167,6 +177,9 @@ impl<L: Library> Session<L> {
         virtual_machine.set_contact(contact);
         virtual_machine.set_skip(inputs.skip);
         virtual_machine.wire(awaiting::decoded_lines(&configuration, &inputs));
+        for (line, on) in lines {
+            virtual_machine.hold_line(line, on, Seconds(0.0), &mut Vec::new());
+        }
         let motion = Motion::new(Path::new(interpreter, start), machine.limits());
         let mut session = Session {
             motion,
@@ -175,12 +188,16 @@ impl<L: Library> Session<L> {
             rehearsal: None,
             met: None,
             live: false,
+            attended: false,
             under_way: None,
             by_hand: None,
             dwelling: None,
             approach: None,
             reader: None,
             asked: None,
+            searched: None,
+            on_dog: AxisSet::NONE,
+            unfound: AxisSet::NONE,
             servo_period: machine.limits().servo_period,
             deadline: None,
             hold_waits: false,

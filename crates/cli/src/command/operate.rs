@@ -87,6 +87,7 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     let configuration = setting::configuration_over(control.clone(), setting, &kept)?;
     let machine = configuration.machine.clone();
     let mut tracer = Tracer::new(&control, &machine.name, machine.axes.iter().map(|axis| axis.letter));
+    tracer.name_lines(machine.logic.lines.iter().map(|line| line.name.as_str()));
     tracer.with_time = true;
     tracer.with_io = arguments.io;
     let mut texts = setting::texts(name, setting)?;

@@ -13,12 +13,15 @@ pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
     let mut session = open(&arguments.file, &arguments.setting)?;
     session.interpreter_mut().tell_variables(true);
     session.tell_signals(arguments.io);
-    if arguments.time || arguments.io {
+    // Where a switch stops a move is a matter of how the axes brake.
+    let stops = !session.configuration().machine.limit_switches().is_empty();
+    if arguments.time || arguments.io || stops {
         session.plan_ahead();
     }
     let configuration = session.configuration().clone();
     let (control, machine) = (&configuration.control, &configuration.machine);
     let mut tracer = Tracer::new(control, &machine.name, machine.axes.iter().map(|axis| axis.letter));
+    tracer.name_lines(machine.logic.lines.iter().map(|line| line.name.as_str()));
     tracer.with_time = arguments.time;
     tracer.with_io = arguments.io;
     let mut output = Output::new();

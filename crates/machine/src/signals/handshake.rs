@@ -26,7 +26,16 @@ struct Out {
     strobe: bool,
     /// From the strobe to the end of what the machine does, s.
     takes: f64,
+    /// It is not done before this time: the builder's logic says when, at first never.
+    until: f64,
     done: bool,
+}
+
+impl Out {
+    /// When the machine has done it.
+    fn due(&self) -> f64 {
+        (self.strobe_at + self.takes).max(self.until)
+    }
 }
 
 /// What the machine does with FIN.
@@ -118,13 +127,14 @@ impl Handshake {
         self.any && (self.fin.is_some() && self.fault != Fin::ByHand || self.out.iter().flatten().any(other))
     }
 
-    /// A code goes on its lines; the machine is done so many seconds after its strobe. Which code of the block on such
-    /// lines it is.
-    pub fn send(&mut self, code: CodeOut, place: &Place, now: Seconds, takes: Seconds) -> u8 {
+    /// A code goes on its lines; the machine is done so many seconds after its strobe, or when the builder's logic says
+    /// so. Which code of the block on such lines it is.
+    pub fn send(&mut self, code: CodeOut, place: &Place, now: Seconds, takes: Option<Seconds>) -> u8 {
         let nth = self.out.iter().flatten().filter(|out| out.code.line == code.line).count() as u8;
         let strobe_at = now.0 + self.times.set_up.0;
         if let Some(slot) = self.out.iter_mut().find(|slot| slot.is_none()) {
-            *slot = Some(Out { code, place: *place, nth, strobe_at, strobe: false, takes: takes.0, done: false });
+            let (until, takes) = takes.map_or((f64::INFINITY, 0.0), |takes| (f64::NEG_INFINITY, takes.0));
+            *slot = Some(Out { code, place: *place, nth, strobe_at, strobe: false, takes, until, done: false });
             self.any = true;
         }
         nth
@@ -162,6 +172,13 @@ impl Handshake {
         }
     }
 
+    /// The builder's logic has done a code.
+    pub fn end(&mut self, index: usize, at: f64) {
+        if let Some(Some(out)) = self.out.get_mut(index) {
+            out.until = out.until.min(at);
+        }
+    }
+
     /// The next thing on the lines, and when.
     pub fn next(&self) -> Option<(f64, Moment)> {
         if !self.any || self.trouble.is_some() {
@@ -177,7 +194,7 @@ impl Handshake {
         let mut all_done = true;
         for (index, out) in self.out.iter().enumerate() {
             let Some(out) = out else { continue };
-            let done = out.strobe_at + out.takes;
+            let done = out.due();
             last = last.max(done);
             let next = match (out.strobe, out.done) {
                 (false, _) => (out.strobe_at, Moment::Strobe(index)),
@@ -210,8 +227,9 @@ impl Handshake {
             Some(off) => Some((off + time_out, Trouble::Stuck)),
             None if self.fin.is_some() => None,
             None => {
-                let strobes = self.out.iter().flatten().map(|out| out.strobe_at);
-                Some((strobes.fold(f64::NEG_INFINITY, f64::max) + time_out, Trouble::Missing))
+                // Whom the builder's logic keeps waiting it tells itself.
+                let begins = self.out.iter().flatten().map(|out| out.strobe_at.max(out.until));
+                Some((begins.fold(f64::NEG_INFINITY, f64::max) + time_out, Trouble::Missing))
             }
         }
     }
@@ -296,7 +314,7 @@ impl Handshake {
         // The one that takes longest, of several alike the first.
         let mut last: Option<&Out> = None;
         for out in self.out.iter().flatten().filter(|out| !out.done || self.fin.is_some()) {
-            if last.is_none_or(|last| out.strobe_at + out.takes > last.strobe_at + last.takes) {
+            if last.is_none_or(|last| out.due() > last.due()) {
                 last = Some(out);
             }
         }

@@ -19,6 +19,17 @@ pub enum Wait {
     GivenUp(Trouble, Waiting),
 }
 
+/// What happens next.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Next {
+    /// The spindle has arrived.
+    Spindle,
+    /// The builder's logic goes on.
+    Logic,
+    /// Something on the lines of codes.
+    Codes(Moment),
+}
+
 /// So many things can happen on the lines without time passing before a wait is given up as endless.
 const MOST_AT_ONCE: usize = 1000;
 
@@ -168,7 +179,7 @@ impl VirtualMachine {
             self.await_codes(place, told);
         }
         self.tell(told, place, EventKind::Code(code));
-        let takes = self.times.of(code.line, code.code);
+        let takes = (!self.is_led(code)).then(|| self.times.of(code.line, code.code));
         let nth = self.handshake.send(code, place, self.time, takes);
         self.code_lines((code, nth), true, self.time.0, place, told);
         self.holds_motion |= code.after_motion;
@@ -203,27 +214,29 @@ impl VirtualMachine {
         self.pass_until(Seconds(self.time.0.max(time.0)), told);
     }
 
-    /// The next thing on the lines, or of the spindle.
+    /// The next thing on the lines, of the spindle or in the builder's logic; of several at once in the order in which
+    /// one brings about another.
     #[inline]
-    fn next_moment(&self) -> Option<(f64, Option<Moment>)> {
-        let spindle = self.spindle.next().map(|at| (at, None));
-        if !self.handshake.is_busy() {
-            return spindle;
-        }
-        let codes = self.handshake.next().map(|(at, moment)| (at, Some(moment)));
-        match (codes, spindle) {
-            (Some(codes), Some(spindle)) if spindle.0 <= codes.0 => Some(spindle),
-            (codes, spindle) => codes.or(spindle),
-        }
+    fn next_moment(&self) -> Option<(f64, Next)> {
+        let spindle = self.spindle.next().map(|at| (at, Next::Spindle));
+        let logic = self.logic.as_ref().and_then(|logic| Some((logic.next()?, Next::Logic)));
+        let codes = if self.handshake.is_busy() { self.handshake.next() } else { None };
+        let codes = codes.map(|(at, moment)| (at, Next::Codes(moment)));
+        let sooner = |first: Option<(f64, Next)>, then: Option<(f64, Next)>| match (first, then) {
+            (Some(first), Some(then)) if then.0 < first.0 => Some(then),
+            (first, then) => first.or(then),
+        };
+        sooner(sooner(spindle, logic), codes)
     }
 
-    fn pass_moment(&mut self, at: f64, moment: Option<Moment>, told: &mut Vec<Event>) {
+    fn pass_moment(&mut self, at: f64, moment: Next, told: &mut Vec<Event>) {
         // What has become possible since, and was due before, happens now.
         let at = at.max(self.signals_until).max(self.time.0);
         self.signals_until = at;
         match moment {
-            Some(moment) => self.happen(at, moment, told),
-            None => {
+            Next::Codes(moment) => self.happen(at, moment, told),
+            Next::Logic => self.advance_logic(at, told),
+            Next::Spindle => {
                 self.spindle.pass();
                 let signal = match (self.spindle.is_turning(), self.spindle.orients()) {
                     (true, _) => Signal::SpeedReached,
@@ -231,6 +244,7 @@ impl VirtualMachine {
                     _ => Signal::SpindleStands,
                 };
                 self.edge(signal, true, at, &Place::default(), told);
+                self.advance_logic(at, told);
             }
         }
     }
@@ -243,6 +257,10 @@ impl VirtualMachine {
                     self.edge(Signal::Strobe(code.line, nth), true, at, &place, told);
                     self.decoded_lines(code, true, at, &place, told);
                     self.take_spindle(code, index, at, told);
+                    if self.begin_logic(index, code, at, told) {
+                        self.handshake.pass(at, moment);
+                        return;
+                    }
                     let longer = self.magazine.take(code);
                     if longer.0 > 0.0 {
                         let takes = self.times.of(code.line, code.code) + longer;
@@ -261,6 +279,7 @@ impl VirtualMachine {
         }
         if self.handshake.pass(at, moment) {
             self.holds_motion = false;
+            self.detach_logic();
         }
     }
 
@@ -308,7 +327,7 @@ impl VirtualMachine {
     }
 
     /// The block whose codes are out.
-    fn place_out(&self) -> Place {
+    pub(super) fn place_out(&self) -> Place {
         (0..).map_while(|index| self.handshake.out(index)).next().map_or_else(Place::default, |(_, _, place)| place)
     }
 
@@ -318,8 +337,9 @@ impl VirtualMachine {
         if self.handshake.is_busy() {
             if self.handshake.has_strobes() {
                 self.strobes_off(now, told);
+            } else if std::mem::take(&mut self.den) {
+                self.edge(Signal::Den, false, now, &self.place_out(), told);
             }
-            self.den = false;
             for (code, nth, strobe) in self.handshake.all_out() {
                 self.code_lines((code, nth), false, now, &self.place_out(), told);
                 if strobe {
@@ -331,6 +351,12 @@ impl VirtualMachine {
             self.edge(Signal::Fin, false, now, &Place::default(), told);
         }
         self.holds_motion = false;
+        self.detach_logic();
+    }
+
+    /// True if the lines of a code are still taken by one of another block.
+    pub fn is_taken(&self, code: CodeOut, place: &Place) -> bool {
+        self.handshake.is_taken(code.line, place)
     }
 
     /// True while a code is out.
@@ -371,6 +397,9 @@ impl VirtualMachine {
                 (Some((_, trouble)), Some(waiting), _) => return Wait::GivenUp(trouble, waiting),
                 (_, _, Some((at, moment))) => self.pass_moment(at, moment, told),
                 _ => return Wait::Over,
+            }
+            if self.logic_gives_up().is_some_and(|late| late.at <= self.time.0) {
+                return Wait::Still;
             }
         }
         Wait::Still

@@ -133,7 +133,8 @@ impl<'s, L: Library> Run<'s, L> {
             EventKind::Alarm(alarm) => {
                 let axis = alarm.axis.and_then(|axis| self.configuration.machine.axes.get(usize::from(axis)));
                 let axis = axis.map(|axis| (char::from(axis.letter), axis.rotary));
-                Some(self.configuration.control.diagnose(&alarm, &excerpt(alarm.span), axis))
+                let word = self.configuration.machine.words_of(&alarm).unwrap_or_else(|| excerpt(alarm.span));
+                Some(self.configuration.control.diagnose(&alarm, &word, axis))
             }
             _ => None,
         };

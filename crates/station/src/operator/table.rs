@@ -127,7 +127,7 @@ pub(super) fn changes_what_follows(action: &Action) -> bool {
     match kind(action) {
         Kind::Turn => match action {
             Action::Override(..) => false,
-            Action::Input(name, _) => !ANSWERS.contains(&name.as_str()),
+            Action::Input(name, _) => is_read(name),
             _ => true,
         },
         Kind::Offset | Kind::Parameter | Kind::Variable | Kind::Load | Kind::Select | Kind::Type => true,
@@ -135,8 +135,11 @@ pub(super) fn changes_what_follows(action: &Action) -> bool {
     }
 }
 
-/// Inputs by which the machine answers codes: they change no move.
-const ANSWERS: [&str; 3] = ["FIN", "EOP", "RWD"];
+/// Inputs that programs read; any other is one by which the machine answers codes, and changes no move.
+fn is_read(name: &str) -> bool {
+    let number = name.strip_prefix("UI").unwrap_or_default();
+    matches!(name, "skip" | "interrupt") || number.starts_with(|first: char| first.is_ascii_digit())
+}
 
 /// Inputs that act in the moment in which they turn on, also in the middle of a move.
 pub(super) fn acts_at_once(action: &Action) -> bool {

@@ -5,7 +5,7 @@
 use base::{Alarm, Condition, Place};
 use machine::{DecodedLine, Machine, Signal, Trouble, Wait, Waiting};
 use meaning::{Close, CodeLine};
-use path::Shape;
+use path::{Shape, Shaped};
 
 use super::Session;
 use crate::configuration::{Configuration, Inputs};
@@ -25,6 +25,16 @@ pub(super) fn decoded_lines(configuration: &Configuration, inputs: &Inputs) -> V
         Some(DecodedLine { code: u32::from(row.code), eop, rwd })
     })
     .collect()
+}
+
+/// The letter of a code.
+pub(super) const fn letter(line: CodeLine) -> u8 {
+    match line {
+        CodeLine::M => b'M',
+        CodeLine::S => b'S',
+        CodeLine::T => b'T',
+        CodeLine::B => b'B',
+    }
 }
 
 impl<L: Library> Session<L> {
@@ -50,6 +60,17 @@ impl<L: Library> Session<L> {
         if waits && self.alarm.is_none() { self.machine.waiting() } else { None }
     }
 
+    /// What the steps of the code wait for that the control waits for, in words, if the builder's logic has it.
+    pub fn logic_waiting(&self, waiting: &Waiting) -> Option<String> {
+        let wait = self.machine.logic_waiting(waiting.code)?;
+        Some(self.configuration.machine.logic.wait_in_words(&wait))
+    }
+
+    /// The builder's lines and how they stand.
+    pub fn logic_lines(&self) -> impl Iterator<Item = (&str, bool)> {
+        self.machine.logic_lines()
+    }
+
     /// Holds an input by hand.
     ///
     /// # Errors
@@ -58,6 +79,10 @@ impl<L: Library> Session<L> {
         let now = self.time();
         if name == "FIN" {
             self.machine.set_fin(on, now, &mut self.events);
+            return Ok(());
+        }
+        if let Some(line) = self.configuration.machine.logic.input(name) {
+            self.machine.hold_line(line, on, now, &mut self.events);
             return Ok(());
         }
         let before = self.inputs;
@@ -113,6 +138,16 @@ impl<L: Library> Session<L> {
         if !self.machine.awaits() && self.codes.is_empty() {
             return false;
         }
+        if self.machine.awaits() && self.lines_are_taken() {
+            let place = self.motion.upstream.current().place;
+            if !self.await_machine(&place) {
+                self.awaited = true;
+                return true;
+            }
+            if self.alarm.is_some() {
+                return true;
+            }
+        }
         let shape = &self.motion.upstream.current().shape;
         let (asks, place) = (self.asks_for_answers(shape), self.motion.upstream.current().place);
         if !asks {
@@ -126,6 +161,16 @@ impl<L: Library> Session<L> {
         }
         self.awaited = true;
         true
+    }
+
+    /// Codes are to go out now whose lines are still taken: the program has not waited for those before.
+    fn lines_are_taken(&self) -> bool {
+        let gathers = matches!(self.motion.upstream.current().shape, Shape::Code(code) if !code.after_motion);
+        let taken = |shaped: &Shaped| match shaped.shape {
+            Shape::Code(code) => self.machine.is_taken(code, &shaped.place),
+            _ => false,
+        };
+        !gathers && self.codes.iter().any(taken)
     }
 
     fn asks_for_answers(&self, shape: &Shape) -> bool {
@@ -146,32 +191,51 @@ impl<L: Library> Session<L> {
             return true;
         }
         self.rest();
-        let limit = self.deadline.map_or(f64::INFINITY, |deadline| deadline.0).min(self.next_trip());
-        let limit = limit.max(self.machine.time().0);
-        match self.machine.wait_for_codes(limit, place, &mut self.events) {
-            Wait::Over => true,
-            Wait::Still => false,
-            Wait::GivenUp(trouble, waiting) => {
-                self.raise(self.given_up(trouble, &waiting));
-                true
+        let deadline = self.deadline.map_or(f64::INFINITY, |deadline| deadline.0);
+        loop {
+            let limit = deadline.min(self.next_trip()).max(self.machine.time().0);
+            let wait = self.machine.wait_for_codes(limit, place, &mut self.events);
+            let (now, trip) = (self.machine.time().0, self.next_trip());
+            match wait {
+                Wait::Over => return true,
+                Wait::GivenUp(trouble, waiting) => {
+                    self.raise(self.given_up(trouble, &waiting));
+                    return true;
+                }
+                Wait::Still if trip <= now => return false,
+                // The builder's logic has got on meanwhile, and gives up later.
+                Wait::Still if limit < deadline => {}
+                // Where nobody works the control, nobody gives what is waited for.
+                Wait::Still if !self.attended && limit == f64::INFINITY => {
+                    if let Some(waiting) = self.machine.waiting() {
+                        self.raise(self.never_comes(&waiting));
+                    }
+                    return true;
+                }
+                Wait::Still => return false,
             }
         }
     }
 
+    fn never_comes(&self, waiting: &Waiting) -> Alarm {
+        match self.machine.logic_late(waiting.code) {
+            Some(wait) => {
+                let values = [f64::from(letter(waiting.code.line)), f64::from(waiting.code.code), wait];
+                Alarm::new(Condition::LogicTimeOut, waiting.place, waiting.place.block).with(values)
+            }
+            None if waiting.on => self.given_up(Trouble::Missing, waiting),
+            None => self.given_up(Trouble::Stuck, waiting),
+        }
+    }
+
     fn given_up(&self, trouble: Trouble, waiting: &Waiting) -> Alarm {
-        let letter = match waiting.code.line {
-            CodeLine::M => b'M',
-            CodeLine::S => b'S',
-            CodeLine::T => b'T',
-            CodeLine::B => b'B',
-        };
         let condition = match trouble {
             Trouble::Missing => Condition::FinMissing,
             Trouble::Early => Condition::FinEarly,
             Trouble::Stuck => Condition::FinStuck,
         };
         let time_out = self.configuration.machine.handshake.time_out.0;
-        let values = [f64::from(letter), f64::from(waiting.code.code), time_out];
+        let values = [f64::from(letter(waiting.code.line)), f64::from(waiting.code.code), time_out];
         Alarm::new(condition, waiting.place, waiting.place.block).with(values)
     }
 }

@@ -10,6 +10,7 @@ use motion::{Setpoint, Stroke, Timed};
 use path::{Shape, Shaped};
 
 use super::Session;
+use super::searching::Search;
 use crate::library::Library;
 
 /// How an axis is moved by hand.
@@ -38,6 +39,10 @@ pub(super) struct ByHand {
     from: Point,
     to: Point,
     stroke: Stroke,
+    /// Axes that return to their reference points, in place of the stroke.
+    searches: Vec<Search>,
+    /// G28 makes it, not a hand.
+    of_program: bool,
     elapsed: f64,
     /// Why it ends before the place that was asked for.
     border: Option<Refusal>,
@@ -49,6 +54,48 @@ const BEYOND: f64 = 0.001;
 const STRIDE_S: f64 = 1.0;
 
 impl ByHand {
+    /// Axes on their way to their reference points.
+    pub fn searching(how: HandMove, from: Point, searches: Vec<Search>, of_program: bool) -> ByHand {
+        let mut to = from;
+        searches.iter().for_each(|search| to[search.axis] = search.point());
+        let (axis, stroke) =
+            (searches.first().map_or(0, |search| search.axis), Stroke::new(0.0, 1.0, 1.0, f64::INFINITY));
+        ByHand { axis, how, from, to, stroke, searches, of_program, elapsed: 0.0, border: None }
+    }
+
+    /// True if G28 makes it.
+    pub fn is_of_program(&self) -> bool {
+        self.of_program
+    }
+
+    fn has_arrived(&self) -> bool {
+        if self.searches.is_empty() { self.stroke.has_arrived() } else { self.searches.iter().all(Search::has_arrived) }
+    }
+
+    fn stands(&self) -> bool {
+        if self.searches.is_empty() { self.stroke.leg().is_none() } else { self.searches.iter().all(Search::stands) }
+    }
+
+    /// The axes shall stand, or go on.
+    pub fn hold(&mut self, held: bool) {
+        self.stroke.hold(held);
+        self.searches.iter_mut().for_each(|search| search.hold(held));
+    }
+
+    /// Goes on for a time, at most to its end; edges of dogs are told with their axis and the time since then.
+    fn advance(&mut self, seconds: f64, tell: &mut dyn FnMut(usize, f64, bool)) {
+        let left = if self.searches.is_empty() {
+            self.stroke.advance(seconds)
+        } else {
+            let left = self.searches.iter_mut().map(|search| {
+                let axis = search.axis;
+                search.advance(seconds, &mut |at, on| tell(axis, at, on))
+            });
+            left.fold(seconds, f64::min)
+        };
+        self.elapsed += seconds - left;
+    }
+
     pub fn elapsed(&self) -> f64 {
         self.elapsed
     }
@@ -56,7 +103,11 @@ impl ByHand {
     /// Where the axes are, and how fast.
     pub fn setpoint(&self) -> Setpoint {
         let mut setpoint = Setpoint { position: self.to, velocity: [0.0; AXES] };
-        if !self.stroke.has_arrived() {
+        if !self.searches.is_empty() {
+            for search in &self.searches {
+                [setpoint.position[search.axis], setpoint.velocity[search.axis]] = search.here();
+            }
+        } else if !self.stroke.has_arrived() {
             let (here, axis) = (self.stroke.here(), self.axis);
             let sign = (self.to[axis] - self.from[axis]).signum();
             setpoint.position[axis] = self.from[axis] + sign * here.s;
@@ -78,12 +129,12 @@ impl ByHand {
 
     /// True while it is on its way.
     pub fn moves(&self) -> bool {
-        self.stroke.leg().is_some()
+        !self.stands()
     }
 
     /// It comes to stand as fast as it can.
     pub fn slow_down(&mut self) {
-        self.stroke.hold(true);
+        self.hold(true);
     }
 
     /// Time passes while the axis stands.
@@ -103,6 +154,12 @@ impl<L: Library> Session<L> {
             return Err(format!("a lock switch holds axis {}", char::from(letter)));
         }
         let from = *self.machine.position();
+        let dog = self.configuration.machine.axes.get(axis).and_then(|axis| axis.reference_return);
+        if let (HandMove::Home, Some(_), Some(search)) = (how, dog, self.search(axis, true)) {
+            self.forget_rehearsal();
+            self.begin_searches(vec![search], false);
+            return Ok(());
+        }
         let travel = self.configuration.machine.travel();
         let mut to = from;
         to[axis] = match how {
@@ -126,7 +183,8 @@ impl<L: Library> Session<L> {
         let limits = self.configuration.machine.limits();
         let (acceleration, jerk) = (limits.axes[axis].acceleration, limits.jerk(axis));
         let stroke = Stroke::new((to[axis] - from[axis]).abs(), self.hand_speed(axis, how), acceleration, jerk);
-        self.by_hand = Some(ByHand { axis, how, from, to, stroke, elapsed: 0.0, border });
+        let (searches, of_program) = (Vec::new(), false);
+        self.by_hand = Some(ByHand { axis, how, from, to, stroke, searches, of_program, elapsed: 0.0, border });
         if stroke.has_arrived() {
             self.end_by_hand();
         }
@@ -135,7 +193,7 @@ impl<L: Library> Session<L> {
 
     /// True while an axis is moved by hand.
     pub fn is_moved_by_hand(&self) -> bool {
-        self.by_hand.is_some()
+        self.by_hand.as_ref().is_some_and(|by_hand| !by_hand.of_program)
     }
 
     /// What a move by hand is to the machine.
@@ -159,45 +217,108 @@ impl<L: Library> Session<L> {
     pub(super) fn pass_hand_speed(&mut self) {
         if let Some(&ByHand { axis, how, .. }) = self.by_hand.as_ref() {
             let speed = self.hand_speed(axis, how);
+            let speeds: Vec<f64> = self.search_speeds();
             if let Some(by_hand) = &mut self.by_hand {
                 by_hand.stroke.set_speed(speed);
+                by_hand.searches.iter_mut().zip(speeds).for_each(|(search, speed)| search.set_speed(speed));
             }
         }
+    }
+
+    /// The speed of each search, as the override switches have it, mm/s.
+    fn search_speeds(&self) -> Vec<f64> {
+        let searches = self.by_hand.iter().flat_map(|by_hand| &by_hand.searches);
+        let limits = self.configuration.machine.limits();
+        let speed = |search: &Search| match search.dog() {
+            Some(dog) => self.search_speed(dog),
+            None => self.motion.overrides().rapid(limits.axes[search.axis].rapid),
+        };
+        searches.map(speed).collect()
     }
 
     /// The move by hand goes on to its end or the end of the time; false if nothing more comes of it.
     pub(super) fn go_on_by_hand(&mut self) -> bool {
         loop {
             let now = self.time().0;
-            let until = self.deadline.map_or(now + STRIDE_S, |deadline| deadline.0.min(now + STRIDE_S));
-            let Some(by_hand) = &mut self.by_hand else { return true };
-            let seconds = (until - now).max(0.0);
-            let left = by_hand.stroke.advance(seconds);
-            by_hand.elapsed += seconds - left;
-            if by_hand.stroke.has_arrived() {
+            let stride = (now + STRIDE_S).min(self.next_trip());
+            self.drive_by_hand(self.deadline.map_or(stride, |deadline| deadline.0.min(stride)));
+            let Some(by_hand) = &self.by_hand else { return true };
+            if by_hand.has_arrived() {
                 self.end_by_hand();
                 return true;
             }
-            if self.is_time_up() || self.by_hand.as_ref().is_some_and(|by_hand| by_hand.stroke.leg().is_none()) {
+            let stands = by_hand.stands();
+            if self.tripped.is_some() || self.next_trip() <= self.time().0 || !self.has_told_all() {
+                return true;
+            }
+            if self.is_time_up() || stands {
                 return false;
             }
         }
     }
 
+    /// Drives the move by hand until then, at most to its end. Setpoints on the way go to the machine, if it takes them,
+    /// and overtravel switches are looked at.
+    fn drive_by_hand(&mut self, until: f64) {
+        let looks = !self.machine.switches().is_empty();
+        if self.machine.drives().is_none() && !looks {
+            return self.pass_by_hand(until);
+        }
+        loop {
+            let next = self.next_setpoint();
+            self.pass_by_hand(next.min(until));
+            let Some(by_hand) = self.by_hand.as_ref().filter(|by_hand| !by_hand.has_arrived()) else { return };
+            if next > until || by_hand.stands() {
+                return;
+            }
+            let setpoint = by_hand.setpoint();
+            self.machine.follow(base::Seconds(next), &setpoint);
+            self.look_at_switches();
+            if self.tripped.is_some() {
+                return;
+            }
+        }
+    }
+
+    /// The move by hand goes on until then; what happens on the lines is told.
+    fn pass_by_hand(&mut self, until: f64) {
+        let now = self.time().0;
+        let Some(by_hand) = &mut self.by_hand else { return };
+        // Seldom more than two: the dog is met and left.
+        let mut edges: Vec<(f64, usize, bool)> = Vec::new();
+        by_hand.advance((until - now).max(0.0), &mut |axis, at, on| edges.push((now + at, axis, on)));
+        edges.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (at, axis, on) in edges {
+            self.machine.pass_signals(base::Seconds(at), &mut self.events);
+            self.tell_dog(axis, on, at);
+        }
+        let now = self.time();
+        self.machine.pass_signals(now, &mut self.events);
+    }
+
     /// The axis comes to stand as fast as it can, and what is left of its move is dropped.
     pub fn stop_by_hand(&mut self) {
-        let Some(by_hand) = &mut self.by_hand else { return };
-        by_hand.stroke.hold(true);
-        while by_hand.stroke.leg().is_some() {
-            by_hand.elapsed += STRIDE_S - by_hand.stroke.advance(STRIDE_S);
-        }
+        self.hold_by_hand();
         self.end_by_hand();
+    }
+
+    /// The axes come to stand as fast as they can.
+    pub(super) fn hold_by_hand(&mut self) {
+        let Some(by_hand) = &mut self.by_hand else { return };
+        by_hand.hold(true);
+        while self.by_hand.as_ref().is_some_and(|by_hand| !by_hand.stands()) {
+            let now = self.time().0;
+            self.pass_by_hand(now + STRIDE_S);
+        }
     }
 
     /// The axis stands: what has been moved is told and counted.
     fn end_by_hand(&mut self) {
         let Some(by_hand) = self.by_hand.take() else { return };
-        let (arrived, axis) = (by_hand.stroke.has_arrived(), by_hand.axis);
+        let (arrived, axis) = (by_hand.has_arrived(), by_hand.axis);
+        if by_hand.of_program {
+            return self.end_search(&by_hand, arrived);
+        }
         let mut to = by_hand.setpoint().position;
         to[axis] = (to[axis] * 1e6).round() / 1e6;
         if let HandMove::To(mm) = by_hand.how
@@ -236,5 +357,22 @@ impl<L: Library> Session<L> {
         if let (true, Some(refusal)) = (arrived, by_hand.border) {
             self.raise(refusal.alarm);
         }
+    }
+
+    /// The axes that G28 has sent to their reference points stand: there, or where they were broken off.
+    fn end_search(&mut self, by_hand: &ByHand, arrived: bool) {
+        if arrived {
+            self.searched = Some(base::Seconds(by_hand.elapsed));
+            self.perform_shape();
+            self.searched = None;
+            return;
+        }
+        let to = by_hand.setpoint().position;
+        let shape = Shape::Rapid { from: by_hand.from, to, kind: RapidKind::Checked };
+        let shaped = Shaped { shape, ..*self.motion.upstream.current() };
+        let timed = Timed { shaped: &shaped, duration: base::Seconds(by_hand.elapsed), ..self.motion.time(&shaped) };
+        // What could not be made as a whole was refused before it began.
+        let _ = self.machine.execute(&timed, &mut self.events);
+        self.come_to_stand();
     }
 }

@@ -66,6 +66,7 @@ impl<L: Library> Session<L> {
     pub(super) fn begin_block(&mut self) {
         self.between_blocks = false;
         self.take_from_tape();
+        self.unfound = self.newly_returned();
         self.tell_block();
         // #3004 bit 1: the program fixes the feed override at 100 %.
         let fixes = self.interpreter().executing_state().feed_control & 2 != 0;
@@ -110,10 +111,15 @@ impl<L: Library> Session<L> {
             Shape::Code(_) | Shape::Dwell(_) | Shape::Await(_) => self.rest(),
             _ => {}
         }
-        self.live && (moves && self.begin_move() || dwells && self.deadline.is_some() && self.begin_dwell())
+        let dwells = dwells && self.deadline.is_some();
+        moves && self.begin_search() || self.live && (moves && self.begin_move() || dwells && self.begin_dwell())
     }
 
     fn execute_shape(&mut self) -> Result<(), Refusal> {
+        if let Some(duration) = self.searched {
+            let timed = Timed { duration, ..self.motion.current() };
+            return self.machine.execute(&timed, &mut self.events);
+        }
         let Some(shaped) = self.real_shape() else {
             return self.machine.execute(&self.motion.current(), &mut self.events);
         };
@@ -220,6 +226,7 @@ impl<L: Library> Session<L> {
 
     fn close(&mut self, close: Close, place: Place) {
         self.between_blocks = true;
+        self.unfound = AxisSet::NONE;
         self.settle_returned(&place);
         if std::mem::take(&mut self.codes_out) && self.waits_for_codes() {
             self.rest();

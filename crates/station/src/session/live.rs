@@ -36,6 +36,7 @@ impl<L: Library> Session<L> {
     pub fn run_live(&mut self) {
         self.plan_ahead();
         self.live = true;
+        self.attended = true;
     }
 
     /// As [`Session::next`], but no farther than to this time; `None` when it has come.
@@ -79,9 +80,14 @@ impl<L: Library> Session<L> {
         std::array::from_fn(|axis| to[axis] - counted[axis])
     }
 
+    /// True while G28 sends axes to their reference points.
+    pub(super) fn is_searching(&self) -> bool {
+        self.by_hand.as_ref().is_some_and(ByHand::is_of_program)
+    }
+
     /// True while the axes move.
     pub fn is_moving(&self) -> bool {
-        self.live && !self.motion.is_standing()
+        self.live && (!self.motion.is_standing() || self.is_searching())
     }
 
     /// Something is to be touched that what follows depends on: the axes stand at the end of the first move at whose
@@ -161,8 +167,7 @@ impl<L: Library> Session<L> {
             return self.drive_on(until);
         }
         loop {
-            let period = self.servo_period;
-            let next = ((self.time().0 / period + ON_THE_DOT).floor() + 1.0) * period;
+            let next = self.next_setpoint();
             let ended = self.drive_on(next.min(until));
             if ended || next > until {
                 return ended;
@@ -179,6 +184,12 @@ impl<L: Library> Session<L> {
         }
     }
 
+    /// When the next setpoint holds, s.
+    pub(super) fn next_setpoint(&self) -> f64 {
+        let period = self.servo_period;
+        ((self.time().0 / period + ON_THE_DOT).floor() + 1.0) * period
+    }
+
     fn drive_on(&mut self, until: f64) -> bool {
         let Some(under_way) = &mut self.under_way else { return true };
         let seconds = (until - self.machine.time().0 - under_way.elapsed).max(0.0);
@@ -190,7 +201,7 @@ impl<L: Library> Session<L> {
     }
 
     /// The axes have come to stand: the drives are sent where.
-    fn come_to_stand(&mut self) {
+    pub(super) fn come_to_stand(&mut self) {
         if self.machine.drives().is_some() && self.motion.is_standing() {
             let (period, position) = (self.servo_period, *self.machine.position());
             let next = (self.time().0 / period - ON_THE_DOT).ceil() * period;
@@ -284,7 +295,9 @@ impl<L: Library> Session<L> {
 
     /// FEED HOLD: the axes come to stand, the rest of the move is kept. In tapping it waits for the end of the retract.
     pub fn feed_hold(&mut self) {
-        if self.by_hand.is_some() {
+        if self.is_searching() {
+            self.hold_by_hand();
+        } else if self.by_hand.is_some() {
             self.stop_by_hand();
             return self.hold_approach();
         }
@@ -292,7 +305,9 @@ impl<L: Library> Session<L> {
             self.hold_waits = true;
             return;
         }
-        self.brake();
+        if !self.is_searching() {
+            self.brake();
+        }
         self.hold_waits = false;
         if self.stopped || self.alarm.is_some() || self.ended {
             return;
@@ -306,6 +321,9 @@ impl<L: Library> Session<L> {
     /// The move under way goes on.
     pub(super) fn release(&mut self) {
         self.motion.hold(false);
+        if let Some(by_hand) = &mut self.by_hand {
+            by_hand.hold(false);
+        }
     }
 
     /// True while a tap is in the hole.

@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use base::{Seconds, SourceId};
+use base::{AxisSet, Seconds, SourceId};
 use machine::Machine;
 use meaning::Quantity;
 use motion::Ahead;
@@ -92,8 +92,11 @@ impl Lent {
 impl<L: Library> Session<L> {
     /// Moves are planned together with those that follow them: cutting moves run into each other as fast as the axes
     /// allow, and times are what they would be on the machine. Without it every move begins and ends at rest.
+    ///
+    /// Where the machine has overtravel switches, moves take their time too: one may end in its middle.
     pub fn plan_ahead(&mut self) {
         self.motion.plan_ahead();
+        self.live |= !self.machine.switches().is_empty();
     }
 
     /// As [`Session::plan_ahead`]; how each cutting move is driven is kept for [`Session::stretches`].
@@ -241,12 +244,16 @@ impl<L: Library> Session<L> {
             rehearsal: None,
             met: Some(VecDeque::new()),
             live: false,
+            attended: false,
             under_way: None,
             by_hand: None,
             dwelling: None,
             approach: None,
             reader: self.reader.clone(),
             asked: None,
+            searched: None,
+            on_dog: AxisSet::NONE,
+            unfound: AxisSet::NONE,
             servo_period: self.servo_period,
             deadline: None,
             hold_waits: false,

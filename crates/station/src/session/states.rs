@@ -1,8 +1,8 @@
 //! What brings the control into another state than a program does: power, RESET, emergency stop, the end of a program.
 
-use base::{AXES, Alarm, Condition, Place};
+use base::{AXES, Alarm, AxisSet, Condition, Place};
 use dialect::{Fate, Occasion, StateItem};
-use machine::{EventKind, Machine, ResetCause};
+use machine::{EventKind, LogicFate, Machine, ResetCause};
 
 use super::Session;
 use crate::library::Library;
@@ -52,6 +52,7 @@ impl<L: Library> Session<L> {
         self.machine.stop_spindle(now, &mut self.events);
         self.interpreter_mut().store_codes();
         self.drop_work();
+        self.end_logic(LogicFate::Off);
         self.come_back();
         self.forget_typed();
         self.alarm = None;
@@ -61,6 +62,7 @@ impl<L: Library> Session<L> {
     /// The power comes back. The axes stand where they stood.
     pub fn power_on(&mut self) {
         self.powered = true;
+        self.end_logic(LogicFate::Initial);
         self.settle();
         self.unseen = [0.0; AXES];
         let position = *self.machine.position();
@@ -123,6 +125,11 @@ impl<L: Library> Session<L> {
         let position = self.counted_position();
         self.motion.upstream.stand_at(&position);
         self.interpreter_mut().reset(occasion, &position, refused);
+        // What was to be returned and has not arrived is not.
+        let unfound = std::mem::replace(&mut self.unfound, AxisSet::NONE);
+        if !unfound.is_empty() {
+            self.interpreter_mut().lose_reference_points(unfound);
+        }
         if occasion != Occasion::ProgramEnd && self.inputs.rwd == Some(true) {
             // The rewind input is held on: not only an end of a program rewinds.
             self.interpreter_mut().rewind();
@@ -131,6 +138,9 @@ impl<L: Library> Session<L> {
         self.look_for_label(occasion);
         self.alarm = None;
         if occasion != Occasion::ProgramEnd {
+            let logic = &self.configuration.machine.logic;
+            let fate = if occasion == Occasion::EmergencyStop { logic.emergency_stop } else { logic.reset };
+            self.end_logic(fate);
             self.mend();
         }
         let groups = self.interpreter().read_state().groups;

@@ -1,9 +1,10 @@
 //! What stops the axes against everybody's will: overtravel switches, drives, spindle, power.
 
 use base::{Alarm, Condition, Place};
-use machine::LimitSwitch;
+use machine::{LimitSwitch, LogicAlarm, LogicFate};
 
 use super::Session;
+use super::awaiting::letter;
 use crate::fault::Fault;
 use crate::library::Library;
 
@@ -14,6 +15,11 @@ impl<L: Library> Session<L> {
         let axis_of = |letter: u8| axes.iter().position(|axis| axis.letter == letter);
         match fault {
             Fault::Fin(fin) => self.machine.set_fin_fault(fin),
+            Fault::Input(name) => {
+                if let Some(line) = self.configuration.machine.logic.input(&name) {
+                    self.machine.stick_line(line);
+                }
+            }
             Fault::SpindleSpeed => {
                 let now = self.time();
                 self.machine.set_spindle_weak(true, now, &mut self.events);
@@ -60,6 +66,10 @@ impl<L: Library> Session<L> {
             self.trip(alarm.with([switch.at, 0.0, 0.0]).on_axis(switch.axis));
             return true;
         }
+        if let Some(late) = self.late_logic().filter(|late| late.at <= self.time().0) {
+            self.give_logic_up(&late);
+            return true;
+        }
         let late = self.machine.spindle().gives_up().filter(|(at, _)| at.0 <= self.time().0);
         let Some((_, rpm)) = late.filter(|_| self.alarm.is_none() && self.powered) else { return false };
         let (place, now) = (self.place_at_work(), self.time());
@@ -71,8 +81,33 @@ impl<L: Library> Session<L> {
 
     /// No look is needed before this time, s.
     pub(super) fn next_trip(&self) -> f64 {
-        let at = self.machine.spindle().gives_up().map_or(f64::INFINITY, |(at, _)| at.0);
+        let spindle = self.machine.spindle().gives_up().map_or(f64::INFINITY, |(at, _)| at.0);
+        let at = self.late_logic().map_or(spindle, |late| spindle.min(late.at));
         if self.alarm.is_none() && self.powered { at } else { f64::INFINITY }
+    }
+
+    /// What the builder's logic will give up, or has.
+    fn late_logic(&self) -> Option<LogicAlarm> {
+        if self.alarm.is_some() || !self.powered { None } else { self.machine.logic_gives_up() }
+    }
+
+    /// The builder's logic has waited too long, or does not know where to turn to.
+    fn give_logic_up(&mut self, late: &LogicAlarm) {
+        let place = late.place.unwrap_or_else(|| self.place_at_work());
+        let condition = match late.wait {
+            Some(_) => Condition::LogicTimeOut,
+            None => Condition::LogicPositionMissing,
+        };
+        let values = [f64::from(letter(late.code.line)), f64::from(late.code.code), late.wait.unwrap_or(0.0)];
+        self.trip(Alarm::new(condition, place, place.block).with(values));
+        let now = self.time();
+        self.machine.drop_late_logic(now, &mut self.events);
+    }
+
+    /// Steps and outputs of the builder's logic when something ends them.
+    pub(super) fn end_logic(&mut self, fate: LogicFate) {
+        let now = self.time();
+        self.machine.end_logic(fate, now, &mut self.events);
     }
 
     /// The overtravel switches, each servo period while the axes move.
@@ -95,6 +130,7 @@ impl<L: Library> Session<L> {
         if self.machine.spindle().is_weak() {
             self.machine.set_spindle_weak(false, now, &mut self.events);
         }
+        self.machine.mend_logic(now, &mut self.events);
     }
 
     /// The block at which the power would interrupt a program, or has interrupted it.

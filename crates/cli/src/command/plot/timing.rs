@@ -39,6 +39,9 @@ const fn signal_row(signal: Signal) -> Option<u32> {
         Signal::SpeedReached => 1021,
         Signal::Oriented => 1022,
         Signal::Limit(..) => 1030,
+        Signal::Deceleration(..) => 1031,
+        // In the builder's order: outputs, then inputs.
+        Signal::Line(line) => 1100 + line as u32,
     })
 }
 
@@ -49,7 +52,8 @@ pub(super) fn timing(arguments: &PlotArguments, picture: Picture) -> Result<bool
     session.plan_ahead();
     let configuration = session.configuration().clone();
     let (control, machine) = (&configuration.control, &configuration.machine);
-    let tracer = Tracer::new(control, &machine.name, machine.axes.iter().map(|axis| axis.letter));
+    let mut tracer = Tracer::new(control, &machine.name, machine.axes.iter().map(|axis| axis.letter));
+    tracer.name_lines(machine.logic.lines.iter().map(|line| line.name.as_str()));
     let title = Title { program: String::new(), control: control.title.clone(), machine: machine.name.clone() };
     let mut timing = Timing::new(title, arguments.during.map(|during| during.0));
     let mut alarmed = false;
