@@ -314,6 +314,11 @@ impl<L: Library> Session<L> {
         !self.ended && self.alarm.is_none()
     }
 
+    /// True while a program has begun and not ended, an alarm in its middle or not.
+    pub fn is_in_program(&self) -> bool {
+        !self.ended
+    }
+
     /// True if it waits for CYCLE START.
     pub fn is_stopped(&self) -> bool {
         self.stopped

@@ -257,7 +257,12 @@ impl Station {
             Action::Jog(..) | Action::Step(..) => !dead && !*refused,
             // The axes come to stand.
             Action::Fault(_) => true,
-            Action::FeedHold | Action::Reset | Action::EmergencyStop | Action::PowerOff => !*refused,
+            Action::FeedHold
+            | Action::Reset
+            | Action::EmergencyStop
+            | Action::PowerOff
+            | Action::Fault(_)
+            | Action::Input(..) => !*refused,
             _ => false,
         };
         let to = operator.session.position();

@@ -57,7 +57,8 @@ impl<L: Library> Operator<L> {
         let configuration = self.session.configuration();
         let control = configuration.control.clone();
         let axis = memory::axis_of(&configuration.machine, letter).map_err(|error| error.0)?;
-        let running = self.session.is_running();
+        // An alarm in mid-program is followed by RESET, which brings back what the program had.
+        let running = self.session.is_in_program();
         let interpreter = self.session.interpreter_mut();
         let counts = (mm * 1e6).round();
         if counts.abs() > MOST_COUNTS {
@@ -71,7 +72,7 @@ impl<L: Library> Operator<L> {
             }
             WorkSystem::External => interpreter.memory_mut().external[axis] = counts,
             WorkSystem::Base if running => {
-                return Err(format!("{system} is the program's own while one runs or is stopped"));
+                return Err(format!("{system} is the program's own until it has ended or RESET is pressed"));
             }
             WorkSystem::Base => interpreter.set_base_origin(axis, counts),
         }
