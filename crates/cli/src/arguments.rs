@@ -240,9 +240,10 @@ pub struct OperateArguments {
     /// The machine's answers to codes are events too
     #[arg(long)]
     pub io: bool,
-    /// Keep the control's memory in this folder from one call to the next; without it memory begins empty and is forgotten
+    /// Keep the control's memory in this folder from one call to the next, without DIR in the user's data folder; without
+    /// the option memory begins empty and is forgotten
     #[arg(long, value_name = "DIR")]
-    pub memory: Option<PathBuf>,
+    pub memory: Option<Option<PathBuf>>,
     /// Time passes by the clock; lines on standard input act as they come
     #[arg(long)]
     pub realtime: bool,

@@ -226,3 +226,20 @@ fn without_the_option_nothing_is_kept() {
     let said = text(&cyclestart(&["operate", "-"], "show offset 1\nshow program\n").stdout);
     has(&said, &[r#""what":"offset 1","value":0"#, r#""memory":[]"#]);
 }
+
+#[test]
+fn without_a_folder_the_memory_is_in_the_users_data_folder() {
+    let home = tempfile::tempdir().expect("a folder");
+    let operate = |script: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cyclestart"));
+        command.args(["operate", "-", "--memory"]).env("HOME", home.path()).env_remove("XDG_DATA_HOME");
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("started");
+        child.stdin.take().expect("piped").write_all(script.as_bytes()).expect("taken");
+        text(&child.wait_with_output().expect("ended").stdout)
+    };
+    operate("offset 31 = 12.5\n");
+    has(&operate("show offset 31\n"), &["12.5"]);
+    if cfg!(target_os = "linux") {
+        assert!(home.path().join(".local/share/cyclestart/memory/yasnac-mx1/memory.sqlite").is_file());
+    }
+}

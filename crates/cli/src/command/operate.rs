@@ -15,7 +15,7 @@ use crate::output::{Output, colour_err, say};
 use crate::setting;
 use crate::show_alarm::{show_alarm, show_typed_alarm};
 use crate::texts::{Texts, folder_of};
-use keeping::Keeping;
+use keeping::{Keeping, default_folder};
 use realtime::Hands;
 
 mod history;
@@ -82,7 +82,11 @@ pub fn operate(arguments: &OperateArguments) -> Result<bool, Failure> {
     let script = if live { Vec::new() } else { script(name)? };
     let setting = &arguments.setting;
     let control = Arc::new(setting::load(&setting.control, setting.controls.as_deref())?);
-    let mut keeping = arguments.memory.as_ref().map(|folder| Keeping::open(folder, &control)).transpose()?;
+    let mut keeping = match &arguments.memory {
+        Some(Some(folder)) => Some(Keeping::open(folder, &control)?),
+        Some(None) => Some(Keeping::open(&default_folder(&control.name)?, &control)?),
+        None => None,
+    };
     let kept: Vec<&Setup> = keeping.iter().map(Keeping::setup).collect();
     let configuration = setting::configuration_over(control.clone(), setting, &kept)?;
     let machine = configuration.machine.clone();

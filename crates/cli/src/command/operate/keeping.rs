@@ -1,10 +1,11 @@
 //! `operate --memory`: what the station holds, written to the memory before anything is said that rests on it.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use base::{Diagnostic, Place, SourceId, Span};
 use dialect::Control;
+use etcetera::BaseStrategy;
 use machine::MachineFile;
 use memory::{Change, Content, Kind, Program, Store};
 use station::{
@@ -52,6 +53,14 @@ const CELLS: [(Kind, CellKind); 4] = [
     (Kind::Parameter, CellKind::Parameter),
     (Kind::Variable, CellKind::Variable),
 ];
+
+/// Where a control's memory is kept if no folder is named: in the user's data folder, as the platform has it.
+pub fn default_folder(control: &str) -> Result<PathBuf, Failure> {
+    match etcetera::choose_base_strategy() {
+        Ok(places) => Ok(places.data_dir().join("cyclestart").join("memory").join(control)),
+        Err(error) => Err(Failure::call(format!("no folder for the memory: {error}; name one: --memory DIR"))),
+    }
+}
 
 impl Keeping {
     /// Opens the memory in a folder for this control.
