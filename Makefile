@@ -56,6 +56,9 @@ bench: fast ## measure: speed beside a peer, memory; prints command, sample, fig
 	python3 benches/linuxcnc_times.py
 	python3 benches/planner.py
 	python3 benches/limits.py 1000
+	python3 benches/operating.py
+	python3 benches/handshake.py
+	WALK=1000000 python3 benches/random_walk.py
 	python3 benches/power_cuts.py 1000
 	python3 benches/optimum.py
 	python3 benches/contours.py 100000

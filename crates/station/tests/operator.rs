@@ -257,12 +257,9 @@ impl Station {
             Action::Jog(..) | Action::Step(..) => !dead && !*refused,
             // The axes come to stand.
             Action::Fault(_) => true,
-            Action::FeedHold
-            | Action::Reset
-            | Action::EmergencyStop
-            | Action::PowerOff
-            | Action::Fault(_)
-            | Action::Input(..) => !*refused,
+            Action::FeedHold | Action::Reset | Action::EmergencyStop | Action::PowerOff | Action::Input(..) => {
+                !*refused
+            }
             _ => false,
         };
         let to = operator.session.position();
