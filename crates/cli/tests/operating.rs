@@ -55,8 +55,10 @@ const ACTIONS: &[&str] = &[
 const PART: &str =
     "%\nO1\nN1 G91 G01 X-100. F600\nN2 G90 X-50.\nM30\nO2\nG90 G00 X9999.\nM30\nO3\nM00\nG04 P100\nM30\n%\n";
 
-/// What a refusal by the table says: the action's word and the state's column, to yes or the reason.
-fn table() -> (Vec<String>, BTreeMap<String, Vec<String>>, BTreeMap<String, String>) {
+type Rows = BTreeMap<String, Vec<String>>;
+
+/// The page: its columns, a row's cells by the action's word, the reasons by their letters.
+fn table() -> (Vec<String>, Rows, BTreeMap<String, String>) {
     let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/operating.md"));
     let text = std::fs::read_to_string(page).unwrap();
     let cells = |line: &str| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
