@@ -42,7 +42,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "part.nc").write_text(PART, encoding="ascii")
         (Path(folder) / "shift.txt").write_text(f"load part.nc\nselect O1\ncycle-start\nrun for {seconds}\n", encoding="ascii")
-        command = [str(PROGRAM), "operate", "shift.txt", "--realtime", "--displays", str(DISPLAYS_HZ), "--control", "yasnac-mx1"]
+        command = [str(PROGRAM.resolve()), "operate", "shift.txt", "--realtime", "--displays", str(DISPLAYS_HZ), "--control", "yasnac-mx1"]
         begun = time.monotonic()
         process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         displays, places, events = 0, set(), 0
