@@ -68,6 +68,14 @@ impl Queue {
         self.has_previous = false;
     }
 
+    /// The command being executed and the one before it, to write what an operator writes behind them.
+    pub fn kept_mut(&mut self) -> impl Iterator<Item = &mut Command> {
+        let (front, before) = (self.front, (self.front + HELD - 1) % HELD);
+        let (has_front, has_before) = (self.len > 0, self.has_previous);
+        let kept = move |index| index == front && has_front || index == before && has_before;
+        self.ring.iter_mut().enumerate().filter(move |(index, _)| kept(*index)).map(|(_, command)| command)
+    }
+
     /// The command executed last and the one before it, even if a reset has dropped the queue since.
     pub fn done(&self) -> [&Command; 2] {
         [&self.ring[self.front], &self.ring[(self.front + HELD - 1) % HELD]]

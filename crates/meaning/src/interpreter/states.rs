@@ -68,6 +68,12 @@ impl Interpreter {
         {
             (*now, *later) = (counts, counts);
         }
+        // RESET goes back to what was executed last, of a program that has ended too.
+        for command in self.queue.kept_mut() {
+            if let Some(origin) = command.after.base_origin.get_mut(axis) {
+                *origin = counts;
+            }
+        }
         self.start_state = *self.reader.state;
     }
 
