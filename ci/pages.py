@@ -189,7 +189,7 @@ ACTIONS = {
     "PowerOn": "`power-on`", "PowerOff": "`power-off`", "Load": "`load`", "Select": "`select`", "Mode": "`mode`", "Type": "`mdi`",
     "CycleStart": "`cycle-start`", "FeedHold": "`feed-hold`", "Reset": "`reset`", "Key": "`key` (then as what the key does)",
     "EmergencyStop": "`emergency-stop`", "Release": "`release`", "Turn": "`switch`, `override`, `input`", "Offset": "`offset`, `work`",
-    "Parameter": "`parameter`", "Variable": "`variable`", "Fault": "`fault`", "Show": "`show`", "Run": "`run`", "Jog": "`jog`", "Step": "`step`", "Home": "`home`", "Restart": "`restart`", "Search": "`search`", "Edit": "`edit`", "Tape": "`tape`, `verify`",
+    "Touch": "`touch`", "Parameter": "`parameter`", "Variable": "`variable`", "Fault": "`fault`", "Show": "`show`", "Run": "`run`", "Jog": "`jog`", "Step": "`step`", "Home": "`home`", "Restart": "`restart`", "Search": "`search`", "Edit": "`edit`", "Tape": "`tape`, `verify`",
 }
 OPERATING = """The control is always in one of the nine states below. An action that it takes there is marked *yes*; any other is refused, changes
 nothing, and the letter says why. `cyclestart operate` answers from the same table.
@@ -198,13 +198,23 @@ Axes are moved by hand in the manual modes, each button in its own:
 
 * `jog X +` in mode jog moves at the jog speed, in mode rapid at the rapid rate. With `for 2` the button is pressed for two seconds, and
   the axis then comes to stand. Without it the button stays pressed while `run` lets time pass, until FEED HOLD or RESET.
-* `step X + 0.01` moves by one increment in mode step (0.001, 0.01, 0.1 or 1), in mode handle by as much as the handle is turned.
+* `step X + 0.01` moves by one increment in mode step (the control's are named with its modes below), in mode handle by as much as the
+  handle is turned.
 * `home X` in mode return drives to the reference point at the rapid rate while `run` lets time pass; arrived, the axis is returned.
 
 FEED HOLD, RESET and EMERGENCY STOP stop the axis as fast as it can; what is left of its way is dropped. At the border of its travel it
-stands and the alarm says so; RESET, then move back. MACHINE LOCK (and Z-AXIS CANCEL for Z) keep it from moving by hand at all.
-With MANUAL ABSOLUTE on, what was moved by hand counts into the program's coordinates; off, the program runs beside its place by as
-much, until the axis is returned to its reference point, EMERGENCY STOP, or power-on.
+stands and the alarm says so; RESET, then move back. With MACHINE LOCK (and Z-AXIS CANCEL for Z) the displays count and the axis stands;
+with DISPLAY LOCK it moves and they stand. With MANUAL ABSOLUTE on, what was moved by hand counts into the program's coordinates; off, the
+program runs beside its place by as much, until the axis is returned to its reference point, EMERGENCY STOP, or power-on.
+
+**In the middle of a program**, held or stopped, `jog` and `step` move the axes too (choose a manual mode, afterwards the program's again;
+CYCLE START goes on). Moved back to where it was held, the program goes on as if nothing had been. Moved elsewhere and counted, the way that
+was left is made from there, and the next straight move that names the axis' place leads back to it; policy `intervention=to-the-end` lets the
+rest of a straight move already lead to its end. An arc is made beside its place.
+
+**Touching off.** `touch H1` writes the position of Z into the offset page as the length of tool 1, `touch H1 at 50` over a gauge of 50 mm
+(`touch 31` where lengths and radii share their numbers). Policy `touch-off` says which position: on the relative display, in the work
+system in force, or on the machine. For the relative one, bring the standard tool to the place and set Z of the relative display to zero there.
 
 By itself `operate` lets time pass only with `run`, and as fast as it can. With `--realtime` time passes by the clock, a servo period
 at a time. `cyclestart operate - --realtime` is a panel: each line on standard input acts when it comes, `--displays 60` prints position,
@@ -254,6 +264,8 @@ def operating(controls: list[Control]) -> str:
         lines += [f"## Modes of {control.head['title']}", ""]
         lines += table(["mode", "what it is for", "certainty"],
                        [[f"`{row['name']}`", row["text"], certainty(control, row)] for row in station["mode"]])
+        if steps := station.get("by_hand", {}).get("increments"):
+            lines += [f"Increments of mode step: {', '.join(map(str, steps))} mm or degrees.", ""]
     return "\n".join(lines).rstrip() + "\n"
 
 

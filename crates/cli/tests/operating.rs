@@ -36,6 +36,7 @@ const ACTIONS: &[&str] = &[
     "override feed 50",
     "input skip on",
     "offset 31 = 1.5",
+    "touch 31",
     "work G54 X = 2",
     "parameter 6005 = 0",
     "variable 500 = 3",

@@ -244,6 +244,22 @@ policies! {
         /// At the head of the main program.
         Head = "head",
     }
+    /// Where the rest of a move leads before which axes have been moved by hand and counted.
+    intervention: Intervention = "intervention" {
+        /// Beside its end by as much: the way that was left is made.
+        Beside = "beside",
+        /// To its programmed end; of an arc beside it.
+        ToTheEnd = "to-the-end",
+    }
+    /// What touching off writes as the length of a tool.
+    touch_off: TouchOff = "touch-off" {
+        /// The UNIVERSAL (relative) display.
+        Relative = "relative",
+        /// The place in the work system in force, no length offset taken off.
+        Work = "work",
+        /// The place on the machine.
+        Machine = "machine",
+    }
     /// How the axes go to where a program is taken up in its middle.
     restart_approach: RestartApproach = "restart-approach" {
         /// The tool goes off the work first, and down last.

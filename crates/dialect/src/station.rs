@@ -55,6 +55,8 @@ pub struct StationTable {
     pub modes: Vec<ModeRow>,
     /// Steps of the override switches in percent: feed, rapid, spindle. No steps: the control has no such switch.
     pub overrides: [Vec<u16>; 3],
+    /// The increments of mode step, mm or degrees.
+    pub increments: Vec<f64>,
     /// Index of the parameter with the speed of DRY RUN, mm/min.
     pub jog_speed: usize,
     /// Index of the parameter that says whether DRY RUN replaces the rapid rate too.

@@ -193,7 +193,30 @@ pub struct CycleLevels {
     pub bottom: f64,
 }
 
+/// Where a block leads an axis that stands beside the place at which the program counts it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Leads {
+    /// To the place that it names.
+    ToThePlace,
+    /// To a level of its cycle, with the first move of the axis.
+    ToTheLevel,
+    /// By its way, from where the axis stands.
+    Along,
+}
+
 impl Command {
+    /// Where it leads an axis that stands beside the place at which the program counts it.
+    pub fn leads(&self, axis: usize) -> Leads {
+        let drills =
+            matches!(&self.body, Body::Holes(holes) if holes.cycle.is_some() && usize::from(holes.axis) == axis);
+        match (self.absolute.has(axis), self.written.has(axis)) {
+            // A cycle keeps its levels as places, from block to block.
+            (true, _) | (_, false) if drills => Leads::ToTheLevel,
+            (true, _) => Leads::ToThePlace,
+            _ => Leads::Along,
+        }
+    }
+
     /// True if the control refuses the block: nothing of it happens.
     pub fn is_refused(&self) -> bool {
         matches!(self.body, Body::Alarm(_))

@@ -57,7 +57,7 @@ mod user_macro;
 mod word;
 mod wording;
 
-pub use command::{Command, CycleLevels, Finish};
+pub use command::{Command, CycleLevels, Finish, Leads};
 pub use coordinate::LENGTH_AXIS;
 pub use cycle::Spindle;
 pub use element::{Element, Offset, Turn};

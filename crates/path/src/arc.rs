@@ -71,6 +71,23 @@ impl Arc {
         }
     }
 
+    /// The angle swept up to a point on it, between nothing and the whole sweep, and how far that is from the centre.
+    pub(crate) fn turned_to(&self, at: &Point) -> (f64, f64) {
+        let [u, v] = self.axes.map(|axis| usize::from(axis) % AXES);
+        let spoke = [at[u] - self.center[0], at[v] - self.center[1]];
+        let turn = TAU.copysign(self.sweep);
+        let mut sweep = (libm::atan2(spoke[1], spoke[0]) - self.start_angle) % turn;
+        if sweep * turn < 0.0 {
+            sweep += turn;
+        }
+        let beyond = (sweep - self.sweep) * self.sweep.signum();
+        if beyond > 0.0 {
+            // By rounding it lies a little behind the end, or before the start.
+            sweep = if beyond < (turn - sweep).abs() { self.sweep } else { 0.0 };
+        }
+        (sweep, libm::hypot(spoke[0], spoke[1]))
+    }
+
     /// Where all axes are after the fraction `s` (0 to 1) of the sweep.
     pub fn at(&self, s: f64) -> Point {
         if s <= 0.0 {

@@ -7,6 +7,7 @@ mod arc;
 mod chain;
 mod compensation;
 mod curve;
+mod displacement;
 mod offsetting;
 mod pieces;
 pub mod plane;

@@ -1,6 +1,6 @@
 //! What the stage hands on: shapes, each with where it comes from.
 
-use base::{AXES, Alarm, Place, Point};
+use base::{Alarm, Place, Point};
 use meaning::{ArcMove, Close, CodeOut, Dwell, Element, Feed, Plane, RapidKind, SetValue, StopKind, Turn};
 
 use crate::arc::Arc;
@@ -65,17 +65,28 @@ impl Shape {
             Shape::Rapid { from, kind, .. } => Shape::Rapid { from: *from, to: *at, kind: *kind },
             Shape::Line { from, feed, .. } => Shape::Line { from: *from, to: *at, feed: *feed },
             Shape::Arc { arc, feed } => {
-                let [u, v] = arc.axes.map(|axis| usize::from(axis) % AXES);
-                let spoke = [at[u] - arc.center[0], at[v] - arc.center[1]];
-                let turned = libm::atan2(spoke[1], spoke[0]) - arc.start_angle;
-                let turn = std::f64::consts::TAU.copysign(arc.sweep);
-                // The angle on the way, between nothing and the whole sweep.
-                let mut sweep = turned % turn;
-                if sweep * turn < 0.0 {
-                    sweep += turn;
-                }
-                let radius = [arc.radius[0], libm::hypot(spoke[0], spoke[1])];
-                Shape::Arc { arc: Arc { to: *at, sweep, radius, ..*arc }, feed: *feed }
+                let (sweep, radius) = arc.turned_to(at);
+                Shape::Arc { arc: Arc { to: *at, sweep, radius: [arc.radius[0], radius], ..*arc }, feed: *feed }
+            }
+            other => *other,
+        }
+    }
+
+    /// The part of a move that is left from here, a point on it.
+    pub fn from_there(&self, at: &Point) -> Shape {
+        match self {
+            Shape::Rapid { to, kind, .. } => Shape::Rapid { from: *at, to: *to, kind: *kind },
+            Shape::Line { to, feed, .. } => Shape::Line { from: *at, to: *to, feed: *feed },
+            Shape::Arc { arc, feed } => {
+                let (sweep, radius) = arc.turned_to(at);
+                let rest = Arc {
+                    from: *at,
+                    sweep: arc.sweep - sweep,
+                    radius: [radius, arc.radius[1]],
+                    start_angle: arc.start_angle + sweep,
+                    ..*arc
+                };
+                Shape::Arc { arc: rest, feed: *feed }
             }
             other => *other,
         }
@@ -218,6 +229,8 @@ impl Default for Shaped {
 
 #[cfg(test)]
 mod tests {
+    use base::AXES;
+
     use super::*;
 
     fn point(x: f64, y: f64) -> Point {

@@ -1,9 +1,10 @@
 //! The stage: one operation in, its shapes out, moves of no length left out.
 
 use base::Point;
-use meaning::{Act, Answer, Close, Interpreter, Operation, Pull, StaleBarrier};
+use meaning::{Act, Answer, Close, Dwell, Interpreter, Operation, Pull, StaleBarrier};
 
 use crate::arc::Arc;
+use crate::displacement::{Displacement, Pending};
 use crate::offsetting::{Offsetting, Taken};
 use crate::shape::{Shape, Shaped};
 
@@ -14,6 +15,9 @@ pub struct Path {
     pub upstream: Interpreter,
     position: Point,
     offsetting: Offsetting,
+    displacement: Displacement,
+    /// Of the shape handed out last the beginning has been made already.
+    is_rest: bool,
     /// The operation pulled last is not worked off: a question had to be answered first.
     held: bool,
     /// The operation pulled last closes its block, and no shape has done so yet.
@@ -29,6 +33,8 @@ impl Path {
             upstream,
             position,
             offsetting: Offsetting::default(),
+            displacement: Displacement::default(),
+            is_rest: false,
             held: false,
             open: false,
             shaped: Shaped::default(),
@@ -38,6 +44,7 @@ impl Path {
     /// The axes stand here, whatever was under way (mm, degrees).
     pub fn stand_at(&mut self, position: &Point) {
         self.position = *position;
+        self.displacement = Displacement::default();
         self.offsetting = Offsetting::default();
         self.held = false;
         self.open = false;
@@ -60,22 +67,75 @@ impl Path {
         self.upstream.resume(id, answer)?;
         if let Answer::Stands(at, _) = answer {
             self.position = at;
+            self.displacement = Displacement::default();
         }
         Ok(())
     }
 
+    /// An axis is moved by hand, by `way` mm or degrees, while the program is stopped: before the shape handed out last
+    /// if that is `pulled` and not executed. The rest of a move leads to the move's end, or beside it by as much.
+    pub fn displace(&mut self, axis: usize, way: f64, pulled: bool, to_the_end: bool) {
+        let pending = match (pulled, self.is_rest) {
+            (false, _) => Pending::Nothing,
+            (true, false) => Pending::Whole,
+            (true, true) if to_the_end => Pending::RestToTheEnd,
+            (true, true) => Pending::RestBeside,
+        };
+        self.displacement.add(axis, way, pending, &mut self.shaped, self.upstream.executing());
+    }
+
+    /// True if axes stand beside the places where the program counts them.
+    pub fn is_displaced(&self) -> bool {
+        self.displacement.acts()
+    }
+
+    /// Of the current move nothing is left but the rest, from a point on it.
+    pub fn keep_rest(&mut self, at: &Point) {
+        self.shaped.shape = self.shaped.shape.from_there(at);
+        self.is_rest = true;
+    }
+
+    /// True if of the current move nothing is left but the rest.
+    pub fn is_rest(&self) -> bool {
+        self.is_rest
+    }
+
+    /// Of the current dwell nothing is left but this share.
+    pub fn keep_share(&mut self, share: f64) {
+        match &mut self.shaped.shape {
+            Shape::Dwell(Dwell::Seconds(seconds)) => *seconds *= share,
+            Shape::Dwell(Dwell::Revolutions { turns, .. }) => *turns *= share,
+            _ => {}
+        }
+    }
+
     /// The next shape. It stays as it is until the next call.
     #[expect(clippy::should_implement_trait, reason = "a pull has barriers, which an iterator does not")]
+    #[inline]
     pub fn next(&mut self) -> Pull<&Shaped> {
-        let Path { upstream, position, offsetting, held, open, shaped } = self;
+        self.is_rest = false;
+        match self.pull() {
+            Pull::Item(()) => {
+                if self.displacement.acts() {
+                    self.displacement.apply(&mut self.shaped, self.upstream.executing());
+                }
+                Pull::Item(&self.shaped)
+            }
+            Pull::Barrier(barrier) => Pull::Barrier(barrier),
+            Pull::End => Pull::End,
+        }
+    }
+
+    fn pull(&mut self) -> Pull<()> {
+        let Path { upstream, position, offsetting, displacement, held, open, shaped, .. } = self;
         loop {
             if offsetting.next_piece(upstream, position, shaped) {
                 *open &= !shaped.closes;
-                return Pull::Item(shaped);
+                return Pull::Item(());
             }
             if std::mem::take(open) {
                 close(upstream.current(), offsetting, shaped);
-                return Pull::Item(shaped);
+                return Pull::Item(());
             }
             if !std::mem::take(held) {
                 match upstream.next() {
@@ -89,7 +149,7 @@ impl Path {
                 match offsetting.take(upstream, position, shaped) {
                     Ok(Taken::Piece) => {
                         *open = upstream.current().closes && !shaped.closes;
-                        return Pull::Item(shaped);
+                        return Pull::Item(());
                     }
                     Ok(Taken::Nothing) => {
                         *open = upstream.current().closes;
@@ -112,14 +172,15 @@ impl Path {
             {
                 (shaped.shape, shaped.closes) = (Shape::Alarm(alarm), false);
                 shaped.beside = offsetting.take_beside();
-                return Pull::Item(shaped);
+                return Pull::Item(());
             }
             if taken == Taken::LeadsBack {
                 shaped.beside = offsetting.take_beside();
             }
-            if is_shape {
+            let is_led_back = |command| shaped.shape.is_move() && displacement.is_led_back(command);
+            if is_shape || displacement.acts() && upstream.executing().is_some_and(is_led_back) {
                 *open = false;
-                return Pull::Item(shaped);
+                return Pull::Item(());
             }
         }
     }

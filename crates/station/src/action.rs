@@ -108,6 +108,8 @@ pub enum Action {
     Input(String, bool),
     /// `offset 31 = 10.0`, mm
     Offset(OffsetColumn, u32, f64),
+    /// `touch 31 [at MM]`: the offset of the tool that touches something of this height, mm
+    Touch(OffsetColumn, u32, f64),
     /// `work G54 X = 100.0`, mm or degrees
     Work(String, u8, f64),
     /// `parameter 6005.2 = 1`
@@ -203,6 +205,8 @@ impl fmt::Display for Action {
             Action::Override(switch, percent) => write!(f, "override {} {percent}", switch.name()),
             Action::Input(name, on) => write!(f, "input {name} {}", state(on)),
             Action::Offset(column, number, mm) => write!(f, "offset {} = {mm}", cell(*column, *number)),
+            Action::Touch(column, number, 0.0) => write!(f, "touch {}", cell(*column, *number)),
+            Action::Touch(column, number, mm) => write!(f, "touch {} at {mm}", cell(*column, *number)),
             Action::Work(system, axis, mm) => write!(f, "work {system} {} = {mm}", char::from(*axis)),
             Action::Parameter(setting) => match setting.bit {
                 None => write!(f, "parameter {} = {}", setting.name, setting.value),

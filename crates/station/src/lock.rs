@@ -60,8 +60,13 @@ impl AxisLock {
     }
 
     /// An axis has been moved by hand without being counted.
-    pub fn moved_unseen(&mut self, axis: usize, way: f64) {
-        self.ahead[axis] -= way;
+    pub fn moved_uncounted(&mut self, axis: usize, way: f64) {
+        self.counted_unmoved(axis, -way);
+    }
+
+    /// An axis that is held has been counted as if it were moved by hand.
+    pub fn counted_unmoved(&mut self, axis: usize, way: f64) {
+        self.ahead[axis] += way;
         self.differs = self.ahead.iter().any(|&mm| mm != 0.0);
     }
 

@@ -105,6 +105,15 @@ pub fn read_action(line: &str) -> Result<Action, String> {
         }
         ("override", [switch, percent]) => Action::Override(override_switch(switch)?, whole(percent, "percentage")?),
         ("offset" | "work" | "parameter" | "variable", _) => write(verb, rest, line)?,
+        ("touch", [cell, of @ ..]) => {
+            let (column, number) = split_offset(cell)?;
+            let height = match of {
+                [] => 0.0,
+                ["at", height] => finite(height)?,
+                _ => return Err(no_action()),
+            };
+            Action::Touch(column, number, height)
+        }
         ("fault", words) => Action::Fault(read_fault(words)?),
         ("show", [what, of @ ..]) => Action::Show(show(what, &of.join(" ")).ok_or_else(no_action)??),
         ("run", ["until", until @ ..]) => Action::Run(self::until(until).ok_or_else(no_action)??),
@@ -285,6 +294,8 @@ mod tests {
             "override feed 50",
             "offset 31 = -10.5",
             "offset H1 = 2",
+            "touch 31",
+            "touch H1 at 50",
             "work G54 X = 100",
             "parameter 6005.2 = 1",
             "parameter cycle clearance = 2",
@@ -326,6 +337,10 @@ mod tests {
         for line in [
             "offset 31",
             "offset x = 1",
+            "touch",
+            "touch x",
+            "touch 31 at",
+            "touch 31 on 5",
             "work G54 = 1",
             "override feed fast",
             "show",

@@ -11,6 +11,7 @@ use crate::station::{Key, ModeKind, ModeRow, StationTable};
 pub(super) struct StationDraft {
     pub modes: Vec<ModeRow>,
     pub overrides: [Vec<u16>; 3],
+    pub increments: Vec<f64>,
     /// Names of the parameters: jog speed, whether it replaces the rapid rate.
     pub parameters: [String; 2],
     /// Name of the parameter: lowest rapid rate.
@@ -32,6 +33,7 @@ pub(super) struct StationDraft {
 pub(super) fn station(root: &mut Table) -> StationDraft {
     root.require("overrides");
     let overrides = root.table("overrides", |t| ["feed", "rapid", "spindle"].map(|key| steps(t, key)));
+    let by_hand = root.table("by_hand", |t| t.numbers("increments").unwrap_or_default());
     root.require("speeds");
     let speeds = root
         .table("speeds", |t| (["jog", "dry_run_rapid"].map(|key| t.required_string(key)), t.string("lowest_rapid")));
@@ -45,6 +47,11 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
     let modes: Vec<ModeRow> = root.tables("mode", mode);
     if modes.is_empty() {
         root.error_here("a station has at least one [[mode]]");
+    }
+    let increments = by_hand.unwrap_or_default();
+    let steps = modes.iter().any(|mode| mode.kind == ModeKind::Step);
+    if steps == increments.is_empty() || increments.iter().any(|&mm| mm <= 0.0) {
+        root.error_here("[by_hand] lists the increments of a mode of kind step, mm, and only where there is one");
     }
     let keys: Option<Vec<(String, Key)>> = root.table("keys", |t| t.rest().iter().filter_map(key).collect());
     let is_mode = |name: &String| modes.iter().any(|mode| mode.name == *name);
@@ -68,6 +75,7 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
         end_rewinds,
         m02_rewinds,
         modes,
+        increments,
         overrides: overrides.unwrap_or_default(),
         parameters,
         lowest_rapid,
@@ -202,6 +210,7 @@ pub(super) fn resolve(
         protected: draft.protected,
         modes: draft.modes,
         overrides: draft.overrides,
+        increments: draft.increments,
         states,
     })
 }

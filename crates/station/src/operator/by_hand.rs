@@ -8,9 +8,6 @@ use crate::library::Shelf;
 use crate::memory;
 use crate::session::HandMove;
 
-/// The increments of STEP, mm or degrees.
-const INCREMENTS: [f64; 4] = [0.001, 0.01, 0.1, 1.0];
-
 impl<L: Shelf> Operator<L> {
     /// Moves an axis as the action says, or says why not.
     ///
@@ -30,13 +27,15 @@ impl<L: Shelf> Operator<L> {
 
     /// What the action does in the mode in which the station stands.
     fn hand_move(&self, action: &Action) -> Result<(u8, HandMove), String> {
-        let mode = self.mode();
+        let (mode, increments) = (self.mode(), &self.session.configuration().control.station.increments);
         match (action, mode.kind) {
             (Action::Jog(axis, up, _), ModeKind::Jog | ModeKind::Rapid) => {
                 Ok((*axis, HandMove::Button { up: *up, rapid: mode.kind == ModeKind::Rapid }))
             }
-            (Action::Step(_, way), ModeKind::Step) if !INCREMENTS.contains(&way.abs()) => {
-                Err("the increments of mode step are 0.001, 0.01, 0.1 and 1".to_owned())
+            (Action::Step(_, way), ModeKind::Step) if !increments.contains(&way.abs()) => {
+                let mut known: Vec<_> = increments.iter().map(f64::to_string).collect();
+                let last = known.pop().unwrap_or_default();
+                Err(format!("the increments of mode {} are {} and {last}", mode.name, known.join(", ")))
             }
             (Action::Step(axis, way), ModeKind::Step | ModeKind::Handle) => Ok((*axis, HandMove::By(*way))),
             (Action::Home(axis), ModeKind::Return) => Ok((*axis, HandMove::Home)),

@@ -71,6 +71,8 @@ enum Kind {
     /// Switches, overrides and inputs.
     Turn,
     Offset,
+    /// Tool length by touching off.
+    Touch,
     Parameter,
     Variable,
     /// Faults made on purpose.
@@ -106,6 +108,7 @@ fn kind(action: &Action) -> Kind {
         Action::Release => Kind::Release,
         Action::Switch(..) | Action::Override(..) | Action::Input(..) => Kind::Turn,
         Action::Offset(..) | Action::Work(..) => Kind::Offset,
+        Action::Touch(..) => Kind::Touch,
         Action::Parameter(_) => Kind::Parameter,
         Action::Variable(..) => Kind::Variable,
         Action::Fault(_) => Kind::Fault,
@@ -130,7 +133,7 @@ pub(super) fn changes_what_follows(action: &Action) -> bool {
             Action::Input(name, _) => is_read(name),
             _ => true,
         },
-        Kind::Offset | Kind::Parameter | Kind::Variable | Kind::Load | Kind::Select | Kind::Type => true,
+        Kind::Offset | Kind::Touch | Kind::Parameter | Kind::Variable | Kind::Load | Kind::Select | Kind::Type => true,
         _ => false,
     }
 }
@@ -190,13 +193,14 @@ const TABLE: &[(Kind, [Answer; SITUATIONS])] = &[
     (Kind::Release,       [OFF,       GO,         NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED]),
     (Kind::Turn,          [GO,        GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
     (Kind::Offset,        [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Touch,         [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         GO,           GO]),
     (Kind::Parameter,     [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
     (Kind::Variable,      [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
     (Kind::Fault,         [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
     (Kind::Show,          [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
     (Kind::Run,           [GO,        GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::Jog,           [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
-    (Kind::Step,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    (Kind::Jog,           [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         GO,           GO]),
+    (Kind::Step,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         GO,           GO]),
     (Kind::Home,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
     (Kind::Restart,       [OFF,       PRESSED,    ALARM,        GO,           NO_START,     MOVES,        RUNS,         STOPPED,      STOPPED]),
     (Kind::Search,        [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),

@@ -1,6 +1,6 @@
 //! The panel's pages: offsets, work shifts, parameters, variables.
 
-use dialect::{AxisLetter, ParameterSetting, VariableMeaning};
+use dialect::{AxisLetter, ParameterSetting, TouchOff, VariableMeaning};
 
 use super::Operator;
 use crate::action::{Action, OverrideSwitch};
@@ -17,6 +17,7 @@ impl<L: Library> Operator<L> {
             Action::Input(name, on) => self.session.set_input(name, *on),
             Action::Override(switch, percent) => self.turn_override(*switch, *percent),
             Action::Offset(column, number, mm) => self.write_offset(*column, *number, *mm),
+            Action::Touch(column, number, height) => self.touch_off(*column, *number, *height),
             Action::Work(system, axis, mm) => self.write_work(system, *axis, *mm),
             Action::Parameter(setting) => self.write_parameter(setting),
             Action::Variable(number, value) => self.write_variable(*number, *value),
@@ -51,6 +52,23 @@ impl<L: Library> Operator<L> {
         let memory = self.session.interpreter_mut().memory_mut();
         memory::write_offset(&control, memory, memory::named_column(&control, column), number, mm)
             .map_err(|error| error.0)
+    }
+
+    /// Tool length by touching off: where the tool's axis stands, less the height of what the tool touches.
+    fn touch_off(&mut self, column: OffsetColumn, number: u32, height: f64) -> Result<(), String> {
+        if column == OffsetColumn::Radius {
+            return Err("the length of a tool is touched off, not its radius".to_owned());
+        }
+        let session = &self.session;
+        let Some(axis) = session.tool_axis() else { return Err("the machine has no axis Z".to_owned()) };
+        let interpreter = session.interpreter();
+        let place = match interpreter.fitting().policies.touch_off {
+            TouchOff::Relative => session.universal_display()[axis],
+            TouchOff::Work => session.work_display()[axis] + interpreter.executing_state().length / 1e6,
+            TouchOff::Machine => session.position()[axis],
+        };
+        let increment = interpreter.control().increments[0] as f64 / 1e6;
+        self.write_offset(column, number, ((place - height) / increment).round() * increment)
     }
 
     fn write_work(&mut self, system: &str, letter: u8, mm: f64) -> Result<(), String> {

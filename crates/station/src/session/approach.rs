@@ -188,7 +188,7 @@ impl<L: Library> Session<L> {
     }
 
     /// The axis along which the tool leaves the work.
-    pub(super) fn tool_axis(&self) -> Option<usize> {
+    pub fn tool_axis(&self) -> Option<usize> {
         self.configuration.machine.axes.iter().position(|axis| axis.letter == LENGTH_AXIS)
     }
 

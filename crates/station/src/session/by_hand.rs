@@ -4,12 +4,14 @@
 //! emergency stop; what is left of it is dropped.
 
 use base::{AXES, AxisSet, Place, Point};
+use dialect::{Intervention, Meaning};
 use machine::{Machine, Refusal};
 use meaning::RapidKind;
 use motion::{Setpoint, Stroke, Timed};
 use path::{Shape, Shaped};
 
 use super::Session;
+use super::locks::CANCELLED_AXIS;
 use super::searching::Search;
 use crate::library::Library;
 
@@ -44,6 +46,8 @@ pub(super) struct ByHand {
     /// G28 makes it, not a hand.
     of_program: bool,
     elapsed: f64,
+    /// A lock switch holds the axis here, and it is only counted.
+    locked_at: Option<Point>,
     /// Why it ends before the place that was asked for.
     border: Option<Refusal>,
 }
@@ -60,7 +64,7 @@ impl ByHand {
         searches.iter().for_each(|search| to[search.axis] = search.point());
         let (axis, stroke) =
             (searches.first().map_or(0, |search| search.axis), Stroke::new(0.0, 1.0, 1.0, f64::INFINITY));
-        ByHand { axis, how, from, to, stroke, searches, of_program, elapsed: 0.0, border: None }
+        ByHand { axis, how, from, to, stroke, searches, of_program, elapsed: 0.0, locked_at: None, border: None }
     }
 
     /// True if G28 makes it.
@@ -102,6 +106,18 @@ impl ByHand {
 
     /// Where the axes are, and how fast.
     pub fn setpoint(&self) -> Setpoint {
+        match self.locked_at {
+            Some(position) => Setpoint { position, velocity: [0.0; AXES] },
+            None => self.course(),
+        }
+    }
+
+    /// Where the control counts an axis to be that a lock switch holds.
+    pub fn counted(&self) -> Option<Point> {
+        self.locked_at.map(|_| self.course().position)
+    }
+
+    fn course(&self) -> Setpoint {
         let mut setpoint = Setpoint { position: self.to, velocity: [0.0; AXES] };
         if !self.searches.is_empty() {
             for search in &self.searches {
@@ -121,7 +137,7 @@ impl ByHand {
         match self.how {
             HandMove::Button { .. } => [0.0; AXES],
             _ => {
-                let position = self.setpoint().position;
+                let position = self.course().position;
                 std::array::from_fn(|axis| self.to[axis] - position[axis])
             }
         }
@@ -150,10 +166,18 @@ impl<L: Library> Session<L> {
     /// Why it cannot, in words.
     pub fn begin_by_hand(&mut self, axis: usize, how: HandMove) -> Result<(), String> {
         let letter = self.configuration.machine.axes.get(axis).map_or(b'?', |axis| axis.letter);
-        if self.switches.machine_lock || (self.switches.z_cancel && letter == b'Z') {
+        let locked = self.switches.machine_lock || (self.switches.z_cancel && letter == CANCELLED_AXIS);
+        if locked && matches!(how, HandMove::Home | HandMove::To(_)) {
             return Err(format!("a lock switch holds axis {}", char::from(letter)));
         }
-        let from = *self.machine.position();
+        if self.is_searching() {
+            return Err(
+                "the program is returning axes to their reference points; let them arrive or press RESET".into()
+            );
+        }
+        self.part_move();
+        let locked_at = locked.then_some(*self.machine.position());
+        let from = locked_at.map_or(*self.machine.position(), |_| self.counted_position());
         let dog = self.configuration.machine.axes.get(axis).and_then(|axis| axis.reference_return);
         if let (HandMove::Home, Some(_), Some(search)) = (how, dog, self.search(axis, true)) {
             self.forget_rehearsal();
@@ -166,7 +190,7 @@ impl<L: Library> Session<L> {
             HandMove::Button { up: true, .. } => from[axis].max(travel.high[axis]) + BEYOND,
             HandMove::Button { .. } => from[axis].min(travel.low[axis]) - BEYOND,
             HandMove::To(mm) => mm,
-            HandMove::By(way) => ((from[axis] + way) * 1e6).round() / 1e6,
+            HandMove::By(way) => self.in_counts(from[axis] + way),
             HandMove::Home => {
                 let axes = &self.configuration.machine.axes;
                 axes.get(axis).and_then(|axis| axis.reference_points.first()).copied().unwrap_or(0.0)
@@ -184,11 +208,17 @@ impl<L: Library> Session<L> {
         let (acceleration, jerk) = (limits.axes[axis].acceleration, limits.jerk(axis));
         let stroke = Stroke::new((to[axis] - from[axis]).abs(), self.hand_speed(axis, how), acceleration, jerk);
         let (searches, of_program) = (Vec::new(), false);
-        self.by_hand = Some(ByHand { axis, how, from, to, stroke, searches, of_program, elapsed: 0.0, border });
+        self.by_hand =
+            Some(ByHand { axis, how, from, to, stroke, searches, of_program, elapsed: 0.0, locked_at, border });
         if stroke.has_arrived() {
             self.end_by_hand();
         }
         Ok(())
+    }
+
+    /// A place in whole counts, where no program has left the axis between them.
+    fn in_counts(&self, mm: f64) -> f64 {
+        if self.ended { (mm * 1e6).round() / 1e6 } else { mm }
     }
 
     /// True while an axis is moved by hand.
@@ -198,7 +228,12 @@ impl<L: Library> Session<L> {
 
     /// What a move by hand is to the machine.
     pub(super) fn hand_shape(&self, shape: Shape) -> Shaped {
-        Shaped { shape, place: Place::default(), certain: true, stroke_check: true, ..Shaped::default() }
+        let (interpreter, groups) = (self.interpreter(), &self.interpreter().executing_state().groups);
+        let control = interpreter.control();
+        // Without such codes an area that the machine's file has is always looked at.
+        let stroke_check =
+            control.roles.stroke.is_none_or(|group| control.in_force(groups, group) == Some(Meaning::StrokeCheckOn));
+        Shaped { shape, place: Place::default(), certain: true, stroke_check, ..Shaped::default() }
     }
 
     /// mm/s: the rapid rate or the jog speed, as the override switches have it.
@@ -319,8 +354,9 @@ impl<L: Library> Session<L> {
         if by_hand.of_program {
             return self.end_search(&by_hand, arrived);
         }
-        let mut to = by_hand.setpoint().position;
-        to[axis] = (to[axis] * 1e6).round() / 1e6;
+        let before = self.lock.counted(self.machine.position());
+        let mut to = by_hand.course().position;
+        to[axis] = self.in_counts(to[axis]);
         if let HandMove::To(mm) = by_hand.how
             && arrived
             && by_hand.border.is_none()
@@ -331,15 +367,15 @@ impl<L: Library> Session<L> {
         let shaped = self.hand_shape(Shape::Rapid { from: by_hand.from, to, kind: RapidKind::Checked });
         let duration = base::Seconds(by_hand.elapsed);
         let timed = Timed { shaped: &shaped, duration, length: way.abs(), feed: 0.0, pace: motion::Pace::default() };
-        if way != 0.0 {
+        if way != 0.0 && by_hand.locked_at.is_none() {
             // The move has been cut to what the machine takes.
             let _ = self.machine.execute(&timed, &mut self.events);
         } else {
             let until = self.machine.time() + duration;
             self.machine.stand_until(until, &mut self.events);
         }
-        if let HandMove::To(_) = by_hand.how {
-            // The program counts the axes to be there already.
+        if matches!(by_hand.how, HandMove::To(_)) || self.approach.is_some() {
+            // The program counts the axes to be there already where it is taken up.
             if let (true, Some(refusal)) = (arrived, by_hand.border) {
                 self.raise(refusal.alarm);
             }
@@ -348,14 +384,41 @@ impl<L: Library> Session<L> {
         let home = arrived && by_hand.border.is_none() && by_hand.how == HandMove::Home;
         let returned = if home { AxisSet::only(axis) } else { AxisSet::NONE };
         self.lock.settle(returned);
-        if !home && !self.switches.manual_absolute {
-            self.lock.moved_unseen(axis, way);
+        match (by_hand.locked_at, self.switches.manual_absolute) {
+            (None, false) if !home => self.lock.moved_uncounted(axis, way),
+            (Some(_), true) => self.lock.counted_unmoved(axis, way),
+            _ => {}
         }
         let counted = self.counted_position();
-        self.motion.upstream.stand_at(&counted);
-        self.interpreter_mut().moved_by_hand(&counted, returned);
+        let counts = std::array::from_fn(|axis| counted[axis] - before[axis]);
+        self.count_by_hand(&counted, &counts, returned);
         if let (true, Some(refusal)) = (arrived, by_hand.border) {
             self.raise(refusal.alarm);
+        }
+    }
+
+    /// The control counts that axes have been moved by hand: by so much, to there.
+    fn count_by_hand(&mut self, counted: &Point, counts: &Point, returned: AxisSet) {
+        if self.switches.display_lock {
+            self.keep_from_displays(counts);
+        }
+        if self.ended {
+            self.motion.upstream.stand_at(counted);
+            return self.interpreter_mut().moved_by_hand(counted, returned);
+        }
+        // In the middle of a program it goes on from there.
+        let to_the_end = self.interpreter().fitting().policies.intervention == Intervention::ToTheEnd;
+        for axis in (0..AXES).filter(|&axis| counts[axis] != 0.0) {
+            self.motion.upstream.displace(axis, counts[axis], self.pulled, to_the_end);
+        }
+    }
+
+    /// The program has ended: where axes still stand beside its places, the next one begins.
+    pub(super) fn settle_displacement(&mut self) {
+        if self.motion.upstream.is_displaced() {
+            let counted = self.counted_position();
+            self.motion.upstream.stand_at(&counted);
+            self.interpreter_mut().moved_by_hand(&counted, AxisSet::NONE);
         }
     }
 

@@ -48,6 +48,16 @@ impl<L: Library> Session<L> {
         self.machine.pass_signals(until, &mut self.events);
     }
 
+    /// What is left of the dwell becomes one of its own: the axes are moved by hand before it.
+    pub(super) fn part_dwell(&mut self) {
+        let Some(elapsed) = self.dwelling else { return };
+        let duration = self.motion.current().duration.0;
+        self.break_off_dwell();
+        let left = if duration > 0.0 { (1.0 - elapsed / duration).max(0.0) } else { 0.0 };
+        self.motion.upstream.keep_share(left);
+        self.pulled = true;
+    }
+
     /// What is left of the dwell is dropped; the time has passed.
     pub(super) fn break_off_dwell(&mut self) {
         if let Some(elapsed) = self.dwelling.take() {

@@ -281,6 +281,7 @@ impl<L: Library> Session<L> {
         if reset {
             self.change_states(Occasion::ProgramEnd, ResetCause::ProgramEnd);
         }
+        self.settle_displacement();
     }
 
     /// Whether the control itself goes back to the program's head at this end.

@@ -17,8 +17,12 @@ use crate::library::Library;
 pub(super) struct UnderWay {
     /// Time since it began, stops on the way counted in, s.
     elapsed: f64,
+    /// Time in which the axes were driven, s.
+    driven: f64,
 }
 
+/// Nearer to its end a move is over, mm or degrees.
+const NEAR: f64 = 1e-7;
 /// The part of a servo period by which a time may miss a setpoint's and still be it.
 const ON_THE_DOT: f64 = 1e-6;
 /// A look whether the axes still move, s.
@@ -70,13 +74,17 @@ impl<L: Library> Session<L> {
         if let Some(by_hand) = &self.by_hand {
             return by_hand.distance_to_go();
         }
-        let Some(setpoint) = self.setpoint() else { return [0.0; AXES] };
+        let position = match self.setpoint() {
+            Some(setpoint) => setpoint.position,
+            None if self.pulled && self.motion.upstream.is_rest() => self.position(),
+            None => return [0.0; AXES],
+        };
         let to = match &self.motion.upstream.current().shape {
             Shape::Rapid { to, .. } | Shape::Line { to, .. } => *to,
             Shape::Arc { arc, .. } => arc.to,
-            _ => setpoint.position,
+            _ => return [0.0; AXES],
         };
-        let counted = self.lock.counted(&setpoint.position);
+        let counted = self.lock.counted(&position);
         std::array::from_fn(|axis| to[axis] - counted[axis])
     }
 
@@ -131,13 +139,16 @@ impl<L: Library> Session<L> {
             Some(shaped) => self.machine.cannot_end(&Timed { shaped, ..self.motion.current() }),
             None => self.machine.cannot_end(&self.motion.current()),
         };
-        if !ends_by_itself || !is_known || cannot_end {
+        // A cut of no length is no way for the planner: the rest of one that was held at its very end.
+        let cuts = matches!(shaped.shape, Shape::Line { .. } | Shape::Arc { .. });
+        let is_none = cuts && !self.motion.is_joined();
+        if !ends_by_itself || !is_known || cannot_end || is_none {
             self.motion.plan();
             return false;
         }
         self.machine.wait_to_move(&place, &mut self.events);
         self.motion.begin();
-        self.under_way = Some(UnderWay { elapsed: 0.0 });
+        self.under_way = Some(UnderWay { elapsed: 0.0, driven: 0.0 });
         true
     }
 
@@ -194,7 +205,9 @@ impl<L: Library> Session<L> {
         let Some(under_way) = &mut self.under_way else { return true };
         let seconds = (until - self.machine.time().0 - under_way.elapsed).max(0.0);
         let (left, ended) = self.motion.drive_for(seconds);
-        under_way.elapsed += if ended { seconds - left } else { seconds };
+        let driven = if ended { seconds - left } else { seconds };
+        under_way.elapsed += driven;
+        under_way.driven += driven;
         let now = self.time();
         self.machine.pass_signals(now, &mut self.events);
         ended
@@ -239,7 +252,7 @@ impl<L: Library> Session<L> {
 
     /// The move under way has ended.
     fn complete(&mut self) {
-        let Some(UnderWay { elapsed }) = self.under_way.take() else { return };
+        let Some(UnderWay { elapsed, .. }) = self.under_way.take() else { return };
         self.motion.end(elapsed);
         self.perform_shape();
         self.come_to_stand();
@@ -356,7 +369,42 @@ impl<L: Library> Session<L> {
         self.stop_by_hand();
         self.break_off_dwell();
         self.brake();
-        let Some(UnderWay { elapsed }) = self.under_way.take() else { return self.motion.drop_rest() };
+        self.end_here();
+    }
+
+    /// What is left of the move under way becomes a move of its own: the axes are moved by hand before it.
+    pub(super) fn part_move(&mut self) {
+        self.part_dwell();
+        if self.is_at_end() {
+            return self.complete();
+        }
+        if let Some(at) = self.end_here() {
+            self.motion.upstream.keep_rest(&at);
+            self.pulled = true;
+            self.rehearsal = None;
+        }
+    }
+
+    /// True if the move under way has been held just where it ends.
+    fn is_at_end(&self) -> bool {
+        let (Some(under_way), Some(setpoint)) = (&self.under_way, self.motion.setpoint()) else { return false };
+        let (from, to) = match &self.motion.upstream.current().shape {
+            Shape::Rapid { from, to, .. } | Shape::Line { from, to, .. } => (from, to),
+            Shape::Arc { arc, .. } => (&arc.from, &arc.to),
+            _ => return false,
+        };
+        let at = &setpoint.position;
+        let near = |point: &Point| (0..AXES).all(|axis| (at[axis] - point[axis]).abs() < NEAR);
+        // A full circle ends where it began: one period farther the axes are elsewhere.
+        near(to) && (!near(from) || under_way.driven >= self.servo_period)
+    }
+
+    /// The move under way is executed as far as it has come; where the control counts the axes then.
+    fn end_here(&mut self) -> Option<Point> {
+        let Some(UnderWay { elapsed, .. }) = self.under_way.take() else {
+            self.motion.drop_rest();
+            return None;
+        };
         let at = self.motion.setpoint().map(|setpoint| setpoint.position);
         let mut shaped = *self.motion.upstream.current();
         self.motion.end(elapsed);
@@ -372,5 +420,6 @@ impl<L: Library> Session<L> {
             let _ = self.machine.execute(&timed, &mut self.events);
         }
         self.motion.drop_rest();
+        at
     }
 }

@@ -7,10 +7,11 @@ use motion::Overrides;
 use path::{Shape, Shaped};
 
 use super::Session;
+use super::by_hand::ByHand;
 use crate::library::Library;
 
 /// The axis of the switch Z-AXIS CANCEL.
-const CANCELLED_AXIS: u8 = b'Z';
+pub(super) const CANCELLED_AXIS: u8 = b'Z';
 
 /// Percents of the override switches.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -125,16 +126,22 @@ impl<L: Library> Session<L> {
     pub(super) fn pass_displays(&mut self, before: &Point) {
         if self.in_force.display_lock {
             let now = self.counted_position();
-            for axis in 0..AXES {
-                self.unseen[axis] += now[axis] - before[axis];
-            }
+            self.keep_from_displays(&std::array::from_fn(|axis| now[axis] - before[axis]));
+        }
+    }
+
+    /// The displays do not count this way.
+    pub(super) fn keep_from_displays(&mut self, way: &Point) {
+        for axis in 0..AXES {
+            self.unseen[axis] += way[axis];
         }
     }
 
     /// Where the control counts the axes to be, mm and degrees in machine coordinates: where they are, but for those
     /// that a switch has held.
     pub fn counted_position(&self) -> Point {
-        self.lock.counted(&self.position())
+        let held = self.by_hand.as_ref().filter(|_| self.switches.manual_absolute).and_then(ByHand::counted);
+        held.unwrap_or_else(|| self.lock.counted(&self.position()))
     }
 
     /// The ABSOLUTE display: coordinates of the work system in force.

@@ -151,6 +151,9 @@ impl<L: Library> Session<L> {
     /// executed; of a program that has ended nothing is left but the codes in force and, under compensation, the tool
     /// beside its programmed place.
     pub(super) fn leave_program(&mut self) {
+        if self.ended {
+            self.settle_displacement();
+        }
         let (mut position, refused) = (self.counted_position(), self.alarm.is_some());
         if self.ended && !refused {
             position = self.motion.upstream.programmed(&position);

@@ -44,7 +44,7 @@ impl<L: Library> Session<L> {
         if self.look_for_trips() {
             return None;
         }
-        if self.by_hand.is_some() && !self.stopped {
+        if self.by_hand.is_some() && (!self.stopped || !self.is_searching()) {
             return if self.go_on_by_hand() { None } else { Some(Step::Idle) };
         }
         if self.stopped {
