@@ -45,9 +45,10 @@ pub use policy::{
     ArcWithoutCentre, CallFromLarge, CallL0, CompensationCut, CompensationRestart, CompensationStart, CornerMode,
     CycleInCompensation, CycleL0Moves, CycleSpindleUnknown, CycleWithMotion, DwellVariable, FeedModeChange, G87Return,
     G92System, InchFeedInteger, Intervention, LengthWithoutZ, M01OffOutput, MOver99, MdiCalls, OneShotCompany, Options,
-    Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ProgrammedPosition, ReferenceVia,
-    ResetPointer, RestartApproach, ScalingBoreLevels, ScalingCompany, ScalingNegativeRatio, SkipWithoutSignal,
-    StrokeCheck, SubprogramTextEnd, TipSingularity, TouchOff, UnitChangeOffsets,
+    Policies, PositionOffsetAbsolute, PositionOffsetArcRadius, PositionOffsetLetter, ProgrammedPosition,
+    ReferenceFirst, ReferenceVia, ResetPointer, RestartApproach, ScalingBoreLevels, ScalingCompany,
+    ScalingNegativeRatio, SkipWithoutSignal, StrokeCheck, SubprogramTextEnd, TipSingularity, TouchOff,
+    UnitChangeOffsets,
 };
 pub use row::{
     Certainty, Class, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,

@@ -244,6 +244,13 @@ policies! {
         /// At the head of the main program.
         Head = "head",
     }
+    /// What wants every axis returned to its reference point, on a control without a parameter for it.
+    reference_first: ReferenceFirst = "reference-first" {
+        /// A move of the axis, but by G28.
+        Moves = "moves",
+        /// Any block of a program.
+        Start = "start",
+    }
     /// Where the rest of a move leads before which axes have been moved by hand and counted.
     intervention: Intervention = "intervention" {
         /// Beside its end by as much: the way that was left is made.

@@ -2,10 +2,10 @@
 //!
 //! The intermediate point is a programmed one and is remembered on each axis for G29, as a place on the machine; the
 //! reference points are the machine's, no offset, scale or mirror counts on the way to them. An axis that has not been
-//! returned since power-on moves by G28 only.
+//! returned since power-on moves by G28 only, or no program begins: a parameter says, or a policy.
 
 use base::{Alarm, AxisSet, Condition, Point};
-use dialect::Meaning;
+use dialect::{Meaning, ReferenceFirst};
 
 use crate::block::Reading;
 use crate::command::Body;
@@ -144,6 +144,9 @@ impl Reading<'_> {
     pub fn check_returned(&self) -> Result<(), Alarm> {
         let before_start = self.control().functions.reference.before_start;
         let (wanted, all) = match before_start {
+            None if self.setting.fitting.policies.reference_first == ReferenceFirst::Start => {
+                (self.setting.facts.all(), true)
+            }
             None => (self.now_known, false),
             Some(parameter) if self.setting.fitting.parameter(parameter) == 0.0 => (self.setting.facts.all(), true),
             Some(_) => return Ok(()),
