@@ -184,14 +184,14 @@ def index(control: Control) -> str:
 
 
 STATES = ["power off", "emergency stop", "alarm", "automatic mode, nothing runs", "manual mode, nothing moves", "axis moved by hand",
-          "program runs", "held (FEED HOLD)", "stopped (M00, M01, SINGLE BLOCK)"]
+          "program runs", "program waits for the machine (FIN)", "held (FEED HOLD)", "stopped (M00, M01, SINGLE BLOCK)"]
 ACTIONS = {
     "PowerOn": "`power-on`", "PowerOff": "`power-off`", "Load": "`load`", "Select": "`select`", "Mode": "`mode`", "Type": "`mdi`",
     "CycleStart": "`cycle-start`", "FeedHold": "`feed-hold`", "Reset": "`reset`", "Key": "`key` (then as what the key does)",
     "EmergencyStop": "`emergency-stop`", "Release": "`release`", "Turn": "`switch`, `override`, `input`", "Offset": "`offset`, `work`",
     "Touch": "`touch`", "Parameter": "`parameter`", "Variable": "`variable`", "Fault": "`fault`", "Show": "`show`", "Run": "`run`", "Jog": "`jog`", "Step": "`step`", "Home": "`home`", "Restart": "`restart`", "Search": "`search`", "Edit": "`edit`", "Tape": "`tape`, `verify`",
 }
-OPERATING = """The control is always in one of the nine states below. An action that it takes there is marked *yes*; any other is refused, changes
+OPERATING = """The control is always in one of the ten states below. An action that it takes there is marked *yes*; any other is refused, changes
 nothing, and the letter says why. `cyclestart operate` answers from the same table.
 
 Axes are moved by hand in the manual modes, each button in its own:

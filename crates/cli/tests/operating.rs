@@ -14,6 +14,7 @@ const STATES: &[(&str, &str)] = &[
     ("manual mode, nothing moves", "select O1\nmode jog"),
     ("axis moved by hand", "mode jog\njog X -\nrun for 0.1"),
     ("program runs", "select O1\ncycle-start\nrun for 1"),
+    ("program waits for the machine (FIN)", "input FIN off\nselect O4\ncycle-start\nrun for 1"),
     ("held (FEED HOLD)", "select O1\ncycle-start\nrun for 1\nfeed-hold"),
     ("stopped (M00, M01, SINGLE BLOCK)", "select O3\ncycle-start\nrun until stop"),
 ];
@@ -53,8 +54,7 @@ const ACTIONS: &[&str] = &[
     "verify",
 ];
 
-const PART: &str =
-    "%\nO1\nN1 G91 G01 X-100. F600\nN2 G90 X-50.\nM30\nO2\nG90 G00 X9999.\nM30\nO3\nM00\nG04 P100\nM30\n%\n";
+const PART: &str = "%\nO1\nN1 G91 G01 X-100. F600\nN2 G90 X-50.\nM30\nO2\nG90 G00 X9999.\nM30\nO3\nM00\nG04 P100\nM30\nO4\nM08\nM30\n%\n";
 
 type Rows = BTreeMap<String, Vec<String>>;
 

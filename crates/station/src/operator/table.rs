@@ -23,6 +23,8 @@ pub(super) enum Situation {
     Moving,
     /// A program runs.
     Running,
+    /// A program waits for the machine: FIN, the spindle, the builder's logic.
+    Waiting,
     /// A program is held by FEED HOLD and can go on.
     Held,
     /// A program is stopped between blocks (M00, M01, SINGLE BLOCK) and can go on.
@@ -45,6 +47,8 @@ pub(super) fn situation<L: Library>(session: &Session<L>, mode: &ModeRow) -> Sit
         Situation::Held
     } else if session.is_stopped() {
         Situation::Stopped
+    } else if session.waiting().is_some() {
+        Situation::Waiting
     } else {
         Situation::Running
     }
@@ -177,35 +181,35 @@ const SITUATIONS: usize = Situation::Stopped as usize + 1;
 /// Every kind of action in every situation.
 #[rustfmt::skip]
 const TABLE: &[(Kind, [Answer; SITUATIONS])] = &[
-    //                     without   emergency  alarm        automatic    manual       axis moved   a program    held         stopped
-    //                     power     stop       stands       idle         idle         by hand      runs         (FEED HOLD)  (M00 …)
-    (Kind::PowerOn,       [GO,        ON,         ON,           ON,           ON,           ON,           ON,           ON,           ON]),
-    (Kind::PowerOff,      [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::Load,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
-    (Kind::Select,        [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
-    (Kind::Mode,          [GO,        GO,         GO,           GO,           GO,           MOVES,        RUNS,         GO,           GO]),
-    (Kind::Type,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
-    (Kind::CycleStart,    [OFF,       PRESSED,    ALARM,        GO,           NO_START,     MOVES,        RUNS,         GO,           GO]),
-    (Kind::FeedHold,      [OFF,       PRESSED,    NOTHING,      NOTHING,      NOTHING,      GO,           GO,           STANDS,       STANDS]),
-    (Kind::Reset,         [OFF,       PRESSED,    GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::Key,           [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::EmergencyStop, [OFF,       PRESSED,    GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::Release,       [OFF,       GO,         NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED]),
-    (Kind::Turn,          [GO,        GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::Offset,        [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::Touch,         [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         GO,           GO]),
-    (Kind::Parameter,     [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
-    (Kind::Variable,      [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::Fault,         [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::Show,          [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::Run,           [GO,        GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO]),
-    (Kind::Jog,           [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         GO,           GO]),
-    (Kind::Step,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         GO,           GO]),
-    (Kind::Home,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
-    (Kind::Restart,       [OFF,       PRESSED,    ALARM,        GO,           NO_START,     MOVES,        RUNS,         STOPPED,      STOPPED]),
-    (Kind::Search,        [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
-    (Kind::Edit,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
-    (Kind::Tape,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         STOPPED,      STOPPED]),
+    //                     without   emergency  alarm        automatic    manual       axis moved   a program    waits for    held         stopped
+    //                     power     stop       stands       idle         idle         by hand      runs         the machine  (FEED HOLD)  (M00 …)
+    (Kind::PowerOn,       [GO,        ON,         ON,           ON,           ON,           ON,           ON,           ON,           ON,           ON]),
+    (Kind::PowerOff,      [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Load,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         STOPPED,      STOPPED]),
+    (Kind::Select,        [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         STOPPED,      STOPPED]),
+    (Kind::Mode,          [GO,        GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         GO,           GO]),
+    (Kind::Type,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         STOPPED,      STOPPED]),
+    (Kind::CycleStart,    [OFF,       PRESSED,    ALARM,        GO,           NO_START,     MOVES,        RUNS,         RUNS,         GO,           GO]),
+    (Kind::FeedHold,      [OFF,       PRESSED,    NOTHING,      NOTHING,      NOTHING,      GO,           GO,           GO,           STANDS,       STANDS]),
+    (Kind::Reset,         [OFF,       PRESSED,    GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Key,           [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::EmergencyStop, [OFF,       PRESSED,    GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Release,       [OFF,       GO,         NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED,  NOT_PRESSED]),
+    (Kind::Turn,          [GO,        GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Offset,        [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Touch,         [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         GO,           GO]),
+    (Kind::Parameter,     [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         STOPPED,      STOPPED]),
+    (Kind::Variable,      [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Fault,         [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Show,          [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Run,           [GO,        GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
+    (Kind::Jog,           [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         RUNS,         GO,           GO]),
+    (Kind::Step,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         RUNS,         GO,           GO]),
+    (Kind::Home,          [OFF,       PRESSED,    ALARM,        BY_HAND,      GO,           MOVES,        RUNS,         RUNS,         STOPPED,      STOPPED]),
+    (Kind::Restart,       [OFF,       PRESSED,    ALARM,        GO,           NO_START,     MOVES,        RUNS,         RUNS,         STOPPED,      STOPPED]),
+    (Kind::Search,        [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         STOPPED,      STOPPED]),
+    (Kind::Edit,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         STOPPED,      STOPPED]),
+    (Kind::Tape,          [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         STOPPED,      STOPPED]),
 ];
 
 /// True for a mode in which the axes are moved by hand.
