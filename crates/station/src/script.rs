@@ -372,4 +372,30 @@ mod tests {
         assert_eq!(without_comment("mdi G00 X#1 # go"), "mdi G00 X#1 ");
         assert_eq!(without_comment("switch single-block on #1"), "switch single-block on ");
     }
+
+    #[test]
+    fn what_is_wrong_with_a_line_is_said() {
+        for (line, why) in [
+            ("switch single-block no", "`no` is neither on nor off"),
+            ("switch single-block=2 on", "the switch `single-block` takes no number"),
+            ("switch block-delete=0 on", "block delete switches are numbered 1 to 9, not `0`"),
+            ("jog 1 +", "`1` is no axis letter"),
+            ("jog X up", "`up` is neither + nor -"),
+            ("work G54 XY = 1", "`XY` is no axis letter"),
+            ("work G54 X 1", "writes no value"),
+            ("work G54 = 1", "write work G54 X = 100.0"),
+            ("offset H-1 = 1", "`H-1` is no offset number"),
+            ("variable 500 = inf", "`inf` is no number"),
+            ("fault fin late", "FIN is never, early or stuck, not `late`"),
+            ("fault servo 1", "`1` is no axis letter"),
+            ("fault limit X + at far", "`far` is no number"),
+            ("fault fire", "there is no fault `fire`; the faults are fin never"),
+            ("restart N", "`N` is no sequence number"),
+            ("restart line 0", "`0` is no line number"),
+            ("restart N5 N6 N7", "a block is named by its line or its sequence number"),
+        ] {
+            let error = read_action(line).expect_err(line);
+            assert!(error.contains(why), "{line}: {error}");
+        }
+    }
 }
