@@ -1,5 +1,6 @@
 //! A memory as the control punches it, and read back: what is data is written by G10 and macro statements, so that the
-//! control itself can read it; programs follow under their O numbers.
+//! control itself can read it; programs follow under their O numbers. No page about the tape of the parameters was found,
+//! and most of them have no known number: they are not on it, which is said.
 
 use std::fmt::Write;
 use std::sync::Arc;
@@ -86,6 +87,15 @@ fn data(content: &Content, control: &Control, text: &mut String) {
     lines.extend(origins.into_iter().map(|(head, axes)| (2, 0, head + &axes)));
     for ((_, name), value) in of_kind(Kind::Variable) {
         lines.push((3, name.parse().unwrap_or(0), format!("#{name}={value}")));
+    }
+    for kind in [Kind::Parameter, Kind::Switch] {
+        let count = of_kind(kind).count();
+        if count > 0 {
+            say(&format!(
+                "{} ({count}): how the control punches them is not known; --form text keeps them\n",
+                kind.name()
+            ));
+        }
     }
     lines.sort();
     lines.iter().for_each(|(_, _, line)| text.extend([line.as_str(), "\n"]));
