@@ -236,7 +236,7 @@ cannot be restored (`not_restored`). Those codes are given by MDI; `restart conf
 go to the place one after the other at the jog speed, Z off the work first and down last (policy `restart-approach`), FEED HOLD stops them, and the
 program runs on as if it had never stopped: in the middle of compensation, cycles, subprograms and loops. What the program writes on the way
 (offsets, kept variables) is written once more, and named. It is refused if the program does not come to the block, raises an alarm before it,
-or if a lock switch is on; what was confirmed no longer counts if anything has changed that it depends on. RESET drops it.
+or if a lock switch is on. In mode tape it takes up the tape, which the reader reads from its head. What was confirmed no longer counts if anything has changed that it depends on. RESET drops it.
 
 **Edit.** In mode edit a cursor stands on a word of the selected program; `show program` shows both. `edit top`, `edit next`, `edit back`,
 `edit line 12`, `edit find X10.` and `edit find X` (any X) move it. `edit insert G04 P500;` puts words in behind it (`;` ends a block),

@@ -454,8 +454,11 @@ impl<L: Library> Session<L> {
     /// The place of a block of which nothing has been executed yet, told once for each; `None` if something else
     /// comes first.
     pub fn block_begins(&mut self) -> Option<Place> {
-        let busy =
-            !self.has_told_all() || self.under_way.is_some() || self.dwelling.is_some() || self.closing.is_some();
+        let busy = !self.has_told_all()
+            || self.under_way.is_some()
+            || self.dwelling.is_some()
+            || self.closing.is_some()
+            || self.is_approaching();
         if busy || self.stopped || self.ended || self.alarm.is_some() || !self.pull() {
             return None;
         }

@@ -139,7 +139,7 @@ fn take_up(session: impl Fn() -> Session<Texts>, stand: Stand) -> Result<usize, 
         {
             continue;
         }
-        session.restart(target, &plan).map_err(|why| format!("{target}: {why}"))?;
+        session.restart(target, &plan, false).map_err(|why| format!("{target}: {why}"))?;
         let state = *session.interpreter().state_before();
         if state != begun.state && !elsewhere {
             return Err(format!("{target}: the state: {state:?}\nand not {:?}", begun.state));

@@ -16,8 +16,13 @@ use crate::session::{RestartPlan, Session};
 pub(super) struct Asked {
     target: BlockTarget,
     plan: RestartPlan,
+    /// What is restarted: the program in memory, or the tape.
+    of: Begins,
     confirmed: bool,
 }
+
+/// Why a restart asked for in mode tape is not begun in mode memory.
+const OTHER_MODE: &str = "the restart was asked for in another mode; go back to it, or ask again";
 
 /// True for an action behind which a restart must be asked for again.
 pub(super) fn is_dropped_by(action: &Action) -> bool {
@@ -39,21 +44,25 @@ impl<L: Shelf> Operator<L> {
         target: &BlockTarget,
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<(), String> {
-        self.refuse_restart()?;
+        let of = self.restarts()?;
+        self.take_its_text(of)?;
         let target = BlockTarget { program: target.program.as_deref().map(super::normal_name), ..target.clone() };
         let plan = self.session.plan_restart(&target)?;
         let value = show(&self.session, &plan);
-        self.restart = Some(Asked { target, plan, confirmed: false });
+        self.restart = Some(Asked { target, plan, of, confirmed: false });
         tell(&mut self.session, Said::Shown { what: "restart".to_owned(), value });
         Ok(())
     }
 
     /// The operator has looked at what was shown; CYCLE START begins it.
     pub(super) fn confirm_restart(&mut self) -> Result<(), String> {
-        self.refuse_restart()?;
+        let of = self.restarts()?;
         let Some(asked) = &mut self.restart else {
             return Err("no restart has been asked for".to_owned());
         };
+        if asked.of != of {
+            return Err(OTHER_MODE.to_owned());
+        }
         // What has been given by MDI since is no longer missing.
         let plan = self.session.plan_restart(&asked.target)?;
         if !plan.give.is_empty() {
@@ -66,29 +75,29 @@ impl<L: Shelf> Operator<L> {
 
     /// CYCLE START: the restart that was confirmed, if one was.
     pub(super) fn begin_restart(&mut self) -> Option<Result<(), String>> {
-        let Asked { target, plan, confirmed } = self.restart.as_ref()?;
+        let Asked { target, plan, of, confirmed } = self.restart.as_ref()?;
+        if self.restarts() != Ok(*of) {
+            return Some(Err(OTHER_MODE.to_owned()));
+        }
         if !confirmed {
             return Some(Err("a restart has been asked for and not confirmed; RESET drops it".to_owned()));
         }
-        let begun = self.session.restart(target, plan);
+        let begun = self.session.restart(target, plan, *of == Begins::Tape);
         if begun.is_ok() {
             self.restart = None;
         }
         Some(begun)
     }
 
-    fn refuse_restart(&self) -> Result<(), String> {
-        match table::begins(self.mode())? {
-            Begins::Memory => {}
-            Begins::Tape => return Err("a tape is not entered in its middle: restart in mode memory".to_owned()),
-            Begins::Typed => {
-                return Err("what is typed is not entered in its middle: restart in mode memory".to_owned());
-            }
+    /// What a restart takes up in this mode.
+    fn restarts(&self) -> Result<Begins, String> {
+        let begins = table::begins(self.mode())?;
+        match begins {
+            Begins::Typed => Err("what is typed is not entered in its middle: restart in mode memory".to_owned()),
+            Begins::Tape if self.tape.is_some() => Ok(begins),
+            _ if self.selected.is_none() => Err("no program is selected".to_owned()),
+            _ => Ok(begins),
         }
-        if self.selected.is_none() {
-            return Err("no program is selected".to_owned());
-        }
-        Ok(())
     }
 }
 

@@ -75,11 +75,12 @@ impl<L: Library> Session<L> {
         Ok(plan)
     }
 
-    /// Takes up the program at this block: the axes go there first, and it runs on.
+    /// Takes up the program at this block: the axes go there first, and it runs on. `of_tape`: the reader reads it, from
+    /// the tape's head up to the block without a stop.
     ///
     /// # Errors
     /// It is no longer as it was `confirmed`.
-    pub fn restart(&mut self, target: &BlockTarget, confirmed: &RestartPlan) -> Result<(), String> {
+    pub fn restart(&mut self, target: &BlockTarget, confirmed: &RestartPlan, of_tape: bool) -> Result<(), String> {
         self.refuse_locks()?;
         let arrived = self.try_to(target)?;
         if !self.plan_of(&arrived).is_same(confirmed) {
@@ -94,13 +95,19 @@ impl<L: Library> Session<L> {
         self.motion.drop_rest();
         self.motion.upstream = trial.motion.upstream;
         (self.pulled, self.between_blocks) = (true, trial.between_blocks);
-        (self.told, self.begun) = (trial.told, trial.begun);
+        // The block has not begun: it is told when the axes have come to the place.
+        (self.told, self.begun) = (None, trial.begun);
         (self.ended, self.rewound, self.label_skip) = (false, false, false);
         (self.stopped, self.feed_held) = (false, false);
         (self.fixes_override, self.switched) = (trial.fixes_override, true);
         self.machine.take_area(&trial.machine);
         self.lock.settle(self.configuration.machine.travel().axes);
         self.approach = Some((confirmed.to, confirmed.way.highest));
+        self.reader = None;
+        if of_tape {
+            self.load_reader();
+            self.wind_back();
+        }
         let start = Place { program: place.program, source: place.source, ..Place::default() };
         self.tell(start, EventKind::Start(groups));
         self.release();
@@ -231,6 +238,11 @@ impl<L: Library> Session<L> {
             from = to;
         }
         Ok(())
+    }
+
+    /// True while the axes are on their way to where the program is taken up.
+    pub(super) fn is_approaching(&self) -> bool {
+        self.approach.is_some_and(|(to, highest)| !self.legs_to(&to, highest).is_empty())
     }
 
     /// The axes go on to where the program is taken up; false if they are there.

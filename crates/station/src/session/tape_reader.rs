@@ -66,6 +66,13 @@ impl<L: Library> Session<L> {
         self.reader = Some(TapeReader { source, speed, depth: depth.max(1), at, since, begun, ahead: 0.0 });
     }
 
+    /// The tape stands at its head.
+    pub(super) fn wind_back(&mut self) {
+        if let Some(reader) = &mut self.reader {
+            reader.at = 0;
+        }
+    }
+
     /// True if the block that is next has not been read when the time that is given is over.
     pub(super) fn waits_for_tape(&mut self) -> bool {
         if self.reader.is_none() || !self.between_blocks || self.met.is_some() || self.is_moving() {
