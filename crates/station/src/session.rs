@@ -32,7 +32,7 @@ use crate::switches::SessionSwitches;
 pub use approach::RestartPlan;
 pub use by_hand::HandMove;
 pub use locks::Percents;
-pub use trial::{Asked, Way};
+pub use trial::{Asked, ProgramHead, Way};
 pub use typed::TYPED;
 use typed::Typed;
 

@@ -124,7 +124,7 @@ fn take_up(session: impl Fn() -> Session<Texts>, stand: Stand) -> Result<usize, 
             Stand::Live => session.run_live(),
             Stand::Elsewhere => jog(&mut session),
         }
-        let plan = match session.plan_restart(target) {
+        let plan = match session.plan_restart(target, None) {
             Ok(plan) => plan,
             // From where the axes stand there may be no way, and a lock switch may be on.
             Err(why) if why.contains("the way there") || why.contains("lock switch") => continue,
@@ -139,7 +139,7 @@ fn take_up(session: impl Fn() -> Session<Texts>, stand: Stand) -> Result<usize, 
         {
             continue;
         }
-        session.restart(target, &plan, false).map_err(|why| format!("{target}: {why}"))?;
+        session.restart(target, None, &plan, false).map_err(|why| format!("{target}: {why}"))?;
         let state = *session.interpreter().state_before();
         if state != begun.state && !elsewhere {
             return Err(format!("{target}: the state: {state:?}\nand not {:?}", begun.state));

@@ -3,13 +3,14 @@
 use base::AXES;
 use dialect::VariableMeaning;
 use meaning::{CodeLine, SetValue};
+use syntax::Cursor;
 
-use super::{Begins, Operator, Said, table};
+use super::{Begins, Loaded, Operator, Said, table};
 use crate::action::Action;
 use crate::block_target::BlockTarget;
 use crate::display::Value;
 use crate::library::{Library, Shelf};
-use crate::session::{RestartPlan, Session};
+use crate::session::{ProgramHead, RestartPlan, Session};
 
 /// A restart that has been asked for and shown.
 #[derive(Clone, PartialEq, Debug)]
@@ -45,9 +46,8 @@ impl<L: Shelf> Operator<L> {
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<(), String> {
         let of = self.restarts()?;
-        self.take_its_text(of)?;
         let target = BlockTarget { program: target.program.as_deref().map(super::normal_name), ..target.clone() };
-        let plan = self.session.plan_restart(&target)?;
+        let plan = self.session.plan_restart(&target, self.program_head(of).as_ref())?;
         let value = show(&self.session, &plan);
         self.restart = Some(Asked { target, plan, of, confirmed: false });
         tell(&mut self.session, Said::Shown { what: "restart".to_owned(), value });
@@ -57,6 +57,7 @@ impl<L: Shelf> Operator<L> {
     /// The operator has looked at what was shown; CYCLE START begins it.
     pub(super) fn confirm_restart(&mut self) -> Result<(), String> {
         let of = self.restarts()?;
+        let head = self.program_head(of);
         let Some(asked) = &mut self.restart else {
             return Err("no restart has been asked for".to_owned());
         };
@@ -64,7 +65,7 @@ impl<L: Shelf> Operator<L> {
             return Err(OTHER_MODE.to_owned());
         }
         // What has been given by MDI since is no longer missing.
-        let plan = self.session.plan_restart(&asked.target)?;
+        let plan = self.session.plan_restart(&asked.target, head.as_ref())?;
         if !plan.give.is_empty() {
             let codes: Vec<_> = plan.give.iter().map(code).collect();
             return Err(format!("the machine wants {} first: give it by MDI", codes.join(" ")));
@@ -75,6 +76,7 @@ impl<L: Shelf> Operator<L> {
 
     /// CYCLE START: the restart that was confirmed, if one was.
     pub(super) fn begin_restart(&mut self) -> Option<Result<(), String>> {
+        let head = self.restart.as_ref().and_then(|asked| self.program_head(asked.of));
         let Asked { target, plan, of, confirmed } = self.restart.as_ref()?;
         if self.restarts() != Ok(*of) {
             return Some(Err(OTHER_MODE.to_owned()));
@@ -82,11 +84,20 @@ impl<L: Shelf> Operator<L> {
         if !confirmed {
             return Some(Err("a restart has been asked for and not confirmed; RESET drops it".to_owned()));
         }
-        let begun = self.session.restart(target, plan, *of == Begins::Tape);
+        let begun = self.session.restart(target, head.as_ref(), plan, *of == Begins::Tape);
         if begun.is_ok() {
             self.restart = None;
         }
         Some(begun)
+    }
+
+    /// The program that is taken up.
+    fn program_head(&self, of: Begins) -> Option<ProgramHead> {
+        if let (Begins::Tape, Some((name, source))) = (of, &self.tape) {
+            return Some((*source, name.clone(), Cursor::HEAD));
+        }
+        let Loaded { name, source, head, .. } = self.programs.get(self.selected.as_ref()?)?;
+        Some((*source, name.clone(), *head))
     }
 
     /// What a restart takes up in this mode.

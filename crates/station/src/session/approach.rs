@@ -8,7 +8,7 @@ use path::Shape;
 
 use super::Session;
 use super::by_hand::HandMove;
-use super::trial::{Arrived, Way};
+use super::trial::{Arrived, ProgramHead, Way};
 use crate::block_target::BlockTarget;
 use crate::library::Library;
 
@@ -63,13 +63,13 @@ impl RestartPlan {
 const THERE: f64 = 1e-9;
 
 impl<L: Library> Session<L> {
-    /// What a restart at this block takes.
+    /// What a restart at this block of a program takes; without one, of the selected program.
     ///
     /// # Errors
     /// Why the program cannot be entered there, in words.
-    pub fn plan_restart(&mut self, target: &BlockTarget) -> Result<RestartPlan, String> {
+    pub fn plan_restart(&mut self, target: &BlockTarget, text: Option<&ProgramHead>) -> Result<RestartPlan, String> {
         self.refuse_locks()?;
-        let arrived = self.try_to(target)?;
+        let arrived = self.try_to(target, text)?;
         let plan = self.plan_of(&arrived);
         self.check_legs(&plan, &arrived)?;
         Ok(plan)
@@ -80,9 +80,15 @@ impl<L: Library> Session<L> {
     ///
     /// # Errors
     /// It is no longer as it was `confirmed`.
-    pub fn restart(&mut self, target: &BlockTarget, confirmed: &RestartPlan, of_tape: bool) -> Result<(), String> {
+    pub fn restart(
+        &mut self,
+        target: &BlockTarget,
+        text: Option<&ProgramHead>,
+        confirmed: &RestartPlan,
+        of_tape: bool,
+    ) -> Result<(), String> {
         self.refuse_locks()?;
-        let arrived = self.try_to(target)?;
+        let arrived = self.try_to(target, text)?;
         if !self.plan_of(&arrived).is_same(confirmed) {
             return Err("it is no longer as it was confirmed; ask for the restart again".to_owned());
         }

@@ -3,15 +3,19 @@
 //! It is the same control on the same machine and texts, so it has no meaning of its own. Nothing of it is told, and
 //! nothing of it touches this session.
 
-use base::{AxisSet, Place};
+use base::{AxisSet, Place, SourceId};
 use dialect::GroupCodes;
 use machine::{Event, EventKind, Fin, Machine};
 use meaning::{BarrierKind, CodeLine, CodeOut, Quantity, SetValue, Side};
+use syntax::Cursor;
 
 use super::rehearsal::Lent;
 use super::{Session, Step};
 use crate::block_target::{At, BlockTarget};
 use crate::library::Library;
+
+/// A program: its text, its name, where it begins.
+pub type ProgramHead = (SourceId, String, Cursor);
 
 /// Blocks after which a trial is given up.
 const MOST_BLOCKS: u64 = 5_000_000;
@@ -108,13 +112,13 @@ pub(super) struct Arrived {
 }
 
 impl<L: Library> Session<L> {
-    /// The program from its head to a block.
+    /// The selected program, or the one that is named, from its head to a block.
     ///
     /// # Errors
     /// Why it cannot be entered there, in words.
-    pub(super) fn try_to(&mut self, target: &BlockTarget) -> Result<Arrived, String> {
+    pub(super) fn try_to(&mut self, target: &BlockTarget, text: Option<&ProgramHead>) -> Result<Arrived, String> {
         let wanted = target.pass;
-        let (mut scout, mut way) = (self.begin_trial(), Way::default());
+        let (mut scout, mut way) = (self.begin_trial(text), Way::default());
         let (passes, ending) = self.follow(&mut scout, target, None, &mut way);
         if let (0, Some(why)) = (passes, ending) {
             return Err(why);
@@ -131,7 +135,7 @@ impl<L: Library> Session<L> {
             }
             (_, Some(pass)) => pass,
         };
-        let (mut trial, mut way) = (self.begin_trial(), Way::default());
+        let (mut trial, mut way) = (self.begin_trial(text), Way::default());
         self.follow(&mut trial, target, Some(pass), &mut way);
         way.asked = trial.asked.take().unwrap_or_default();
         let interpreter = trial.interpreter();
@@ -202,8 +206,8 @@ impl<L: Library> Session<L> {
         }
     }
 
-    /// A session that stands where this one stands and begins the selected program at its head.
-    fn begin_trial(&self) -> Session<Lent> {
+    /// A session that stands where this one stands and begins the selected program at its head, or this one.
+    fn begin_trial(&self, text: Option<&ProgramHead>) -> Session<Lent> {
         let mut trial = self.begin_rehearsal();
         (trial.met, trial.reader) = (None, None);
         trial.asked = Some(Asked::default());
@@ -228,6 +232,10 @@ impl<L: Library> Session<L> {
         trial.interpreter_mut().moved_by_hand(&position, AxisSet::NONE);
         trial.events.clear();
         trial.handed_out = 0;
+        if let Some((source, name, head)) = text {
+            trial.interpreter_mut().forget_texts();
+            trial.select(*source, name, *head);
+        }
         trial.start_over();
         trial
     }
