@@ -264,6 +264,9 @@ def operating(controls: list[Control]) -> str:
         lines += [f"## Modes of {control.head['title']}", ""]
         lines += table(["mode", "what it is for", "certainty"],
                        [[f"`{row['name']}`", row["text"], certainty(control, row)] for row in station["mode"]])
+        lines += [f"Switches of {control.head['title']}:", ""]
+        lines += table(["switch", "what it does", "certainty"],
+                       [[f"`{row['name']}`", row["text"], certainty(control, row)] for row in station["switch"]])
         if steps := station.get("by_hand", {}).get("increments"):
             lines += [f"Increments of mode step: {', '.join(map(str, steps))} mm or degrees.", ""]
     return "\n".join(lines).rstrip() + "\n"

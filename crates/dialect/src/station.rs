@@ -48,11 +48,24 @@ pub struct ModeRow {
     pub origin: Origin,
 }
 
+/// A switch of the panel.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SwitchRow {
+    /// Its name in operators' scripts.
+    pub name: String,
+    /// What it does, for people.
+    pub text: String,
+    /// What the row rests on.
+    pub origin: Origin,
+}
+
 /// The station as the tables describe it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct StationTable {
     /// The modes; the station begins in the first.
     pub modes: Vec<ModeRow>,
+    /// The switches of the panel.
+    pub switches: Vec<SwitchRow>,
     /// Steps of the override switches in percent: feed, rapid, spindle. No steps: the control has no such switch.
     pub overrides: [Vec<u16>; 3],
     /// The increments of mode step, mm or degrees.

@@ -121,6 +121,7 @@ pub(crate) fn read_meaning(
         not_axes: 0,
         now_known: AxisSet::NONE,
     };
+    reading.follow_mirror_switches();
     let words = &mut reading.words;
     words.take(word_count);
     // The multiplier counts in program text and in a macro call's arguments, not inside a macro's body.

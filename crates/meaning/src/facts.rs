@@ -115,4 +115,6 @@ pub struct Switches {
     pub optional_stop: bool,
     /// Block delete 1 to 9, bit 0 for the first.
     pub block_delete: u16,
+    /// Axes whose mirror image is on by its switch.
+    pub mirror_image: AxisSet,
 }

@@ -77,7 +77,7 @@ pub use reference_point::ReferenceData;
 pub use state::{Corner, FeedWord, State};
 pub use stroke::StrokeBox;
 pub use supply::WINDOW;
-pub use transform::{Rotation, Transform};
+pub use transform::{Rotation, TRANSFORMED, Transform};
 pub use unknown::{Unknown, letter_bit};
 pub use user_macro::{BLANK, Variables};
 pub use wording::Wording;

@@ -1,5 +1,6 @@
-//! M94 and M95: mirror image. The axes are chosen by setting bits; their distances change sign from the point where
-//! the image is switched on, which is a place on the machine. G92 on a mirrored axis makes its own point that place.
+//! M94 and M95, and the switches of the panel: mirror image. For M95 the axes are chosen by setting bits, each
+//! switch has its own. Their distances change sign from the point where the image is switched on, which is a place on
+//! the machine. G92 on a mirrored axis makes its own point that place. A switch acts from the next block that is read.
 
 use base::AxisSet;
 
@@ -13,7 +14,38 @@ impl Reading<'_> {
             return;
         }
         self.next.transform.mirror = true;
-        let Some(parameter) = self.control().mirror_setting else { return };
+        let image = self.next.transform.by_switch.or(self.chosen());
+        self.mirror(image);
+    }
+
+    /// M94: words mean what they say again, along the axes that no switch mirrors.
+    pub fn mirror_off(&mut self) {
+        self.next.transform.mirror = false;
+        self.next.transform.mirrored = self.next.transform.by_switch;
+    }
+
+    /// The switches have been looked at as the block is read.
+    pub fn follow_mirror_switches(&mut self) {
+        let switches = self.setting.switches.mirror_image;
+        if switches == self.next.transform.by_switch {
+            return;
+        }
+        self.next.transform.by_switch = switches;
+        let by_code = if self.next.transform.mirror { self.chosen() } else { AxisSet::NONE };
+        self.mirror(switches.or(by_code));
+    }
+
+    /// These axes are mirrored and no others; those that were not begin where they stand.
+    fn mirror(&mut self, image: AxisSet) {
+        let begin = image.without(self.next.transform.mirrored);
+        self.next.transform.mirrored = image;
+        begin.iter().for_each(|axis| self.mirror_here(axis));
+    }
+
+    /// The axes that the setting chooses for M95.
+    fn chosen(&self) -> AxisSet {
+        let mut chosen = AxisSet::NONE;
+        let Some(parameter) = self.control().mirror_setting else { return chosen };
         let bits = self.setting.fitting.parameter(parameter) as u8;
         for (axis, facts) in self.setting.facts.axes.iter().enumerate().take(TRANSFORMED) {
             let bit = match facts.letter {
@@ -23,16 +55,10 @@ impl Reading<'_> {
                 _ => 3,
             };
             if bits & (1 << bit) != 0 {
-                self.next.transform.mirrored.add(axis);
-                self.mirror_here(axis);
+                chosen.add(axis);
             }
         }
-    }
-
-    /// M94: words mean what they say again.
-    pub fn mirror_off(&mut self) {
-        self.next.transform.mirror = false;
-        self.next.transform.mirrored = AxisSet::NONE;
+        chosen
     }
 
     /// Where an axis stands once a changed length offset has been made up for.

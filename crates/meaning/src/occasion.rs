@@ -40,6 +40,7 @@ fn take(state: &mut State, item: StateItem, from: &State) {
         StateItem::Mirror => {
             state.transform.mirror = from.transform.mirror;
             state.transform.mirrored = from.transform.mirrored;
+            state.transform.by_switch = from.transform.by_switch;
         }
         StateItem::LocalSystem => {
             for axis in 0..AXES {

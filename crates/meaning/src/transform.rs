@@ -51,6 +51,8 @@ pub struct Transform {
     pub mirror: bool,
     /// The axes that are mirrored about a line.
     pub mirrored: AxisSet,
+    /// Those of them that a switch mirrors.
+    pub by_switch: AxisSet,
     /// Where each is mirrored: machine coordinates without the length offset, counts.
     pub line: Along,
     /// Rotation.
@@ -71,6 +73,7 @@ impl Default for Transform {
             center: [0.0; TRANSFORMED],
             mirror: false,
             mirrored: AxisSet::NONE,
+            by_switch: AxisSet::NONE,
             line: [0.0; TRANSFORMED],
             rotation: Rotation::default(),
             apart: AxisSet::NONE,

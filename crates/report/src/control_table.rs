@@ -111,6 +111,11 @@ fn modes(control: &Control, out: &mut String) {
         let _ = writeln!(out, "{:<10} {}  {}", mode.name, mode.origin.certainty.0, mode.text);
     }
     out.push('\n');
+    heading(out, "Switches of the operator's panel   (--switch NAME)");
+    for switch in &control.station.switches {
+        let _ = writeln!(out, "{:<16} {}  {}", switch.name, switch.origin.certainty.0, switch.text);
+    }
+    out.push('\n');
 }
 
 fn m_codes(control: &Control, out: &mut String) {

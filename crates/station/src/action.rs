@@ -6,6 +6,7 @@ use crate::block_target::BlockTarget;
 use crate::edit::Edit;
 use crate::fault::Fault;
 use crate::setup::OffsetColumn;
+use crate::switches::Which;
 
 /// What to show.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -101,7 +102,7 @@ pub enum Action {
     /// `release`
     Release,
     /// `switch NAME on|off`
-    Switch(String, Option<u8>, bool),
+    Switch(String, Which, bool),
     /// `override feed|rapid|spindle N`
     Override(OverrideSwitch, u16),
     /// `input NAME on|off`
@@ -200,8 +201,7 @@ impl fmt::Display for Action {
             Action::Key(name) => write!(f, "key {name}"),
             Action::EmergencyStop => f.write_str("emergency-stop"),
             Action::Release => f.write_str("release"),
-            Action::Switch(name, None, on) => write!(f, "switch {name} {}", state(on)),
-            Action::Switch(name, Some(number), on) => write!(f, "switch {name}={number} {}", state(on)),
+            Action::Switch(name, which, on) => write!(f, "switch {name}{} {}", which.suffix(), state(on)),
             Action::Override(switch, percent) => write!(f, "override {} {percent}", switch.name()),
             Action::Input(name, on) => write!(f, "input {name} {}", state(on)),
             Action::Offset(column, number, mm) => write!(f, "offset {} = {mm}", cell(*column, *number)),

@@ -10,7 +10,7 @@ use meaning::{Memory, OffsetTable, Variables};
 
 use crate::memory;
 use crate::setup::{OffsetColumn, Setup};
-use crate::switches::SessionSwitches;
+use crate::switches::{self, SessionSwitches, Which};
 
 /// A set-up that this control or machine refuses.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -276,8 +276,8 @@ impl Configuration {
             let axis = self.axis_in(setup, "contact", letter)?;
             self.contact.push((axis, at));
         }
-        for (name, number) in &setup.switches {
-            let set = self.switches.set(name, *number, true);
+        for (name, which) in &setup.switches {
+            let set = self.check_switch(name, *which).and_then(|()| self.switches.set(name, *which, true));
             set.map_err(|error| setup.refuse(&["switches", name], error))?;
         }
         for (name, on) in &setup.inputs {
@@ -291,6 +291,22 @@ impl Configuration {
     }
 
     /// The axis that a table of the set-up names.
+    /// Whether the control has this switch, and the machine its axis.
+    ///
+    /// # Errors
+    /// It has not, in words.
+    pub fn check_switch(&self, name: &str, which: Which) -> Result<(), String> {
+        let rows = &self.control.station.switches;
+        if switches::names().any(|known| known == name) && !rows.iter().any(|row| row.name == name) {
+            let own: Vec<_> = rows.iter().map(|row| row.name.as_str()).collect();
+            return Err(format!("the {} has no switch `{name}`; it has {}", self.control.title, own.join(", ")));
+        }
+        match which {
+            Which::Axis(letter) => memory::axis_of(&self.machine, letter).map(|_| ()).map_err(|error| error.0),
+            _ => Ok(()),
+        }
+    }
+
     fn axis_in(&self, setup: &Setup, table: &str, letter: u8) -> Result<usize, ConfigurationError> {
         let axis = memory::axis_of(&self.machine, letter);
         axis.map_err(|error| setup.refuse(&[table, &letter_of(letter)], error.0))

@@ -318,6 +318,9 @@ impl<L: Shelf> Operator<L> {
 
     fn cycle_start(&mut self) -> Result<(), String> {
         let begins = table::begins(self.mode())?;
+        if self.session.switches().start_lock {
+            return Err("START LOCK is on".to_owned());
+        }
         let typed = begins == Begins::Typed;
         if self.session.is_stopped() {
             if typed != self.session.is_typed_selected() {

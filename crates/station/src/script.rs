@@ -7,6 +7,7 @@ use crate::block_target::read_block_target;
 use crate::edit::read_edit;
 use crate::fault::read_fault;
 use crate::setup::OffsetColumn;
+use crate::switches::split_switch;
 
 /// A line that is no action.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -100,8 +101,8 @@ pub fn read_action(line: &str) -> Result<Action, String> {
         ("release", []) => Action::Release,
         ("input", [name, state]) => Action::Input((*name).to_owned(), on_or_off(state)?),
         ("switch", [name, state]) => {
-            let (name, number) = split_switch(name)?;
-            Action::Switch(name, number, on_or_off(state)?)
+            let (name, which) = split_switch(name)?;
+            Action::Switch(name, which, on_or_off(state)?)
         }
         ("override", [switch, percent]) => Action::Override(override_switch(switch)?, whole(percent, "percentage")?),
         ("offset" | "work" | "parameter" | "variable", _) => write(verb, rest, line)?,
@@ -221,21 +222,6 @@ fn until(words: &[&str]) -> Option<Result<Until, String>> {
     }))
 }
 
-/// A switch as users write it: `optional-stop`, `block-delete=2`.
-///
-/// # Errors
-/// A number where none may be, or one that no switch has.
-pub fn split_switch(text: &str) -> Result<(String, Option<u8>), String> {
-    match text.split_once('=') {
-        None => Ok((text.to_owned(), None)),
-        Some(("block-delete", number)) => match number.parse() {
-            Ok(number @ 1..=9) => Ok(("block-delete".to_owned(), Some(number))),
-            _ => Err(format!("block delete switches are numbered 1 to 9, not `{number}`")),
-        },
-        Some((name, _)) => Err(format!("the switch `{name}` takes no number")),
-    }
-}
-
 /// A cell of the offset memory as users write it: `31`, `H1`, `D1`.
 ///
 /// # Errors
@@ -265,6 +251,7 @@ pub fn split_parameter(text: &str) -> Result<(String, Option<u8>), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::switches::Which;
 
     #[test]
     fn every_line_is_an_action_a_comment_or_an_error() {
@@ -276,7 +263,7 @@ mod tests {
             actions,
             vec![
                 (1, Action::Load("a.nc".into(), Some("O1".into()))),
-                (4, Action::Switch("block-delete".into(), Some(2), true)),
+                (4, Action::Switch("block-delete".into(), Which::Number(2), true)),
                 (5, Action::Run(Until::Line(7))),
                 (6, Action::Jog(b'X', true, Some(2.0))),
             ]
@@ -291,6 +278,7 @@ mod tests {
             "power-on",
             "mode mdi",
             "mdi G00 X#1 Y[#2]",
+            "switch mirror-image=X on",
             "override feed 50",
             "offset 31 = -10.5",
             "offset H1 = 2",
@@ -378,6 +366,7 @@ mod tests {
         for (line, why) in [
             ("switch single-block no", "`no` is neither on nor off"),
             ("switch single-block=2 on", "the switch `single-block` takes no number"),
+            ("switch mirror-image=1 on", "`1` is no axis letter"),
             ("switch block-delete=0 on", "block delete switches are numbered 1 to 9, not `0`"),
             ("jog 1 +", "`1` is no axis letter"),
             ("jog X up", "`up` is neither + nor -"),

@@ -20,14 +20,14 @@ mod typed;
 
 use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
 use machine::{Event, EventKind, Machine, VirtualMachine};
-use meaning::Interpreter;
+use meaning::{Interpreter, Switches, TRANSFORMED};
 use motion::Motion;
 use path::{Path, RunBeside, Shape, Shaped};
 
 use crate::configuration::{Configuration, Inputs};
 use crate::library::{Library, LibraryError};
 use crate::lock::AxisLock;
-use crate::switches::SessionSwitches;
+use crate::switches::{SessionSwitches, Which};
 
 pub use approach::RestartPlan;
 pub use by_hand::HandMove;
@@ -395,10 +395,12 @@ impl<L: Library> Session<L> {
     ///
     /// # Errors
     /// Why not, in words.
-    pub fn set_switch(&mut self, name: &str, number: Option<u8>, on: bool) -> Result<(), String> {
-        self.switches.set(name, number, on)?;
+    pub fn set_switch(&mut self, name: &str, which: Which, on: bool) -> Result<(), String> {
+        self.configuration.check_switch(name, which)?;
+        self.switches.set(name, which, on)?;
         self.switched = true;
         self.pass_switches();
+        self.pass_overrides();
         Ok(())
     }
 
@@ -436,9 +438,11 @@ impl<L: Library> Session<L> {
 
     fn pass_switches(&mut self) {
         let SessionSwitches { optional_stop, block_delete, .. } = self.switches;
-        let switches = self.interpreter_mut().switches_mut();
-        switches.optional_stop = optional_stop;
-        switches.block_delete = block_delete;
+        let axes = &self.configuration.machine.axes;
+        let mut mirror_image = AxisSet::NONE;
+        let mirrored = |axis: &usize| self.switches.mirrors(axes[*axis].letter);
+        (0..axes.len().min(TRANSFORMED)).filter(mirrored).for_each(|axis| mirror_image.add(axis));
+        *self.interpreter_mut().switches_mut() = Switches { optional_stop, block_delete, mirror_image };
     }
 
     /// The block being executed.

@@ -4,6 +4,7 @@ use data::{DataError, Document, Entry, Table};
 use dialect::ParameterSetting;
 
 use crate::configuration::ConfigurationError;
+use crate::switches::{MIRROR_IMAGE, Which, split_switch};
 
 /// A column of the offset memory.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -36,8 +37,8 @@ pub struct Setup {
     pub work: Vec<(String, u8, f64)>,
     /// Parameters.
     pub parameters: Vec<ParameterSetting>,
-    /// Switches that are on: name, and for block delete its number.
-    pub switches: Vec<(String, Option<u8>)>,
+    /// Switches that are on.
+    pub switches: Vec<(String, Which)>,
     /// Inputs held by hand.
     pub inputs: Vec<(String, bool)>,
     /// Options.
@@ -142,26 +143,21 @@ fn parameter(entry: &Entry) -> Option<ParameterSetting> {
     Some(ParameterSetting { name: entry.key.clone(), bit: None, value: entry.written()? })
 }
 
-fn switches(entry: Entry) -> Vec<(String, Option<u8>)> {
+fn switches(entry: Entry) -> Vec<(String, Which)> {
     let name = entry.key.replace('_', "-");
-    if name == "block-delete" {
-        if let Some(number) = entry.boolean_or_none() {
-            return if number { vec![(name, Some(1))] } else { Vec::new() };
+    if name == "block-delete" || name == MIRROR_IMAGE {
+        if let (Some(on), true) = (entry.boolean_or_none(), name == "block-delete") {
+            return if on { vec![(name, Which::One)] } else { Vec::new() };
         }
-        let numbers = entry.list().unwrap_or_default();
-        return numbers
-            .iter()
-            .filter_map(|item| match item.integer() {
-                Some(number @ 1..=9) => Some((name.clone(), Some(number as u8))),
-                _ => {
-                    item.error("block delete switches are numbered 1 to 9");
-                    None
-                }
-            })
-            .collect();
+        let items = entry.list().unwrap_or_default();
+        let which = |item: &Entry| {
+            let text = if name == MIRROR_IMAGE { item.string()? } else { item.integer()?.to_string() };
+            split_switch(&format!("{name}={text}")).map_err(|why| item.error(why)).ok()
+        };
+        return items.iter().filter_map(which).collect();
     }
     match entry.boolean() {
-        Some(true) => vec![(name, None)],
+        Some(true) => vec![(name, Which::One)],
         _ => Vec::new(),
     }
 }

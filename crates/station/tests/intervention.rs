@@ -118,7 +118,7 @@ fn run(session: &mut Session<Texts>, mut dice: Option<&mut Dice>) -> (Vec<Seen>,
 
 /// Moves an axis or two away and back; true if one moved.
 fn meddle(session: &mut Session<Texts>, dice: &mut Dice, seen: &mut Vec<Seen>) -> bool {
-    session.set_switch("manual-absolute", None, dice.throw(2) == 0).expect("a switch");
+    session.set_switch("manual-absolute", station::Which::One, dice.throw(2) == 0).expect("a switch");
     let axes = session.configuration().machine.axes.len() as u64;
     let mut ways: Vec<(usize, f64)> =
         (0..=dice.throw(2)).map(|_| (dice.throw(axes) as usize, [0.5, -0.5, 1.25][dice.throw(3) as usize])).collect();

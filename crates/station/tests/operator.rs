@@ -89,7 +89,7 @@ fn write() -> impl Strategy<Value = Action> {
             ]),
             any::<bool>()
         )
-            .prop_map(|(name, on)| Action::Switch(name, None, on)),
+            .prop_map(|(name, on)| Action::Switch(name, station::Which::One, on)),
         (switch, percent).prop_map(|(switch, percent)| Action::Override(switch, percent)),
         (select(vec![0, 31, 100]), number.clone()).prop_map(|(cell, mm)| Action::Offset(
             OffsetColumn::Common,

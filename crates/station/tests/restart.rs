@@ -98,7 +98,7 @@ const JOGGED: [usize; 2] = [0, 1];
 /// Moves axes by hand.
 fn jog(session: &mut Session<Texts>) {
     session.run_live();
-    session.set_switch("manual-absolute", None, true).unwrap();
+    session.set_switch("manual-absolute", station::Which::One, true).unwrap();
     for axis in JOGGED {
         // A lock switch may be on.
         let _ = session.begin_by_hand(axis, HandMove::By(-3.0 - axis as f64));

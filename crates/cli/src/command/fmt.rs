@@ -8,7 +8,7 @@ use base::{Condition, SourceId};
 use machine::EventKind;
 use meaning::WINDOW;
 use report::{Difference, Formatted, HouseStyle, Numbering, house_style, same_run};
-use station::{AfterAlarm, Configuration, Session, Step, blocks_of, programs_in};
+use station::{AfterAlarm, Configuration, Session, Step, Which, blocks_of, programs_in};
 use syntax::Cursor;
 use tape::{Format, recognise};
 
@@ -186,7 +186,7 @@ impl Run<'_> {
                         for switch in 1..=9 {
                             let on = self.configuration.switches.block_delete & (1 << (switch - 1)) == 0;
                             for session in [&mut first, &mut second] {
-                                session.set_switch("block-delete", Some(switch), on).map_err(Failure::call)?;
+                                session.set_switch("block-delete", Which::Number(switch), on).map_err(Failure::call)?;
                             }
                         }
                     }

@@ -5,11 +5,12 @@ use data::{DataError, Entry, Table};
 use super::{ControlFiles, origin, parameter_index, refuse};
 use crate::occasion::{Fate, StateItem, StateRow};
 use crate::row::{OptionRow, ParameterRow};
-use crate::station::{Key, ModeKind, ModeRow, StationTable};
+use crate::station::{Key, ModeKind, ModeRow, StationTable, SwitchRow};
 
 /// The station whose parameters are still names.
 pub(super) struct StationDraft {
     pub modes: Vec<ModeRow>,
+    pub switches: Vec<SwitchRow>,
     pub overrides: [Vec<u16>; 3],
     pub increments: Vec<f64>,
     /// Names of the parameters: jog speed, whether it replaces the rapid rate.
@@ -48,6 +49,7 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
     if modes.is_empty() {
         root.error_here("a station has at least one [[mode]]");
     }
+    let switches = root.tables("switch", switch);
     let increments = by_hand.unwrap_or_default();
     let steps = modes.iter().any(|mode| mode.kind == ModeKind::Step);
     if steps == increments.is_empty() || increments.iter().any(|&mm| mm <= 0.0) {
@@ -75,6 +77,7 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
         end_rewinds,
         m02_rewinds,
         modes,
+        switches,
         increments,
         overrides: overrides.unwrap_or_default(),
         parameters,
@@ -124,6 +127,10 @@ fn ranges(table: &mut Table, key: &'static str) -> Vec<[u32; 2]> {
         table.error(place, format!("{key} lists up to eight ranges of program numbers, as in \"8000-8999\""));
     }
     ranges
+}
+
+fn switch(row: &mut Table) -> SwitchRow {
+    SwitchRow { name: row.required_string("name"), text: row.required_string("text"), origin: origin(row) }
 }
 
 fn mode(row: &mut Table) -> ModeRow {
@@ -209,6 +216,7 @@ pub(super) fn resolve(
         m02_rewinds: found(&draft.m02_rewinds)?,
         protected: draft.protected,
         modes: draft.modes,
+        switches: draft.switches,
         overrides: draft.overrides,
         increments: draft.increments,
         states,

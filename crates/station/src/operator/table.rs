@@ -56,6 +56,9 @@ pub(super) fn situation<L: Library>(session: &Session<L>, mode: &ModeRow) -> Sit
 
 /// The switch that stops at block ends.
 const SINGLE_BLOCK: &str = "single-block";
+/// Switches that change no move: they act at once.
+const OVERRIDE_CANCEL: &str = "override-cancel";
+const START_LOCK: &str = "start-lock";
 
 /// Actions that are taken or refused alike.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -135,6 +138,7 @@ pub(super) fn changes_what_follows(action: &Action) -> bool {
         Kind::Turn => match action {
             Action::Override(..) => false,
             Action::Input(name, _) => is_read(name),
+            Action::Switch(name, ..) => name != OVERRIDE_CANCEL && name != START_LOCK,
             _ => true,
         },
         Kind::Offset | Kind::Touch | Kind::Parameter | Kind::Variable | Kind::Load | Kind::Select | Kind::Type => true,

@@ -141,7 +141,7 @@ impl<L: Library> Session<L> {
 
     /// True while feed moves stand still because the feed override is at zero; the codes of their block are out then.
     pub(super) fn stands_still(&mut self) -> bool {
-        if self.percents.feed > 0 || self.after_alarm == AfterAlarm::GoOn {
+        if self.feed_percent() > 0 || self.after_alarm == AfterAlarm::GoOn {
             return false;
         }
         if self.between_blocks {

@@ -43,17 +43,19 @@ impl<L: Library> Session<L> {
         }
     }
 
+    /// The feed override as it counts.
+    pub(super) fn feed_percent(&self) -> u16 {
+        if self.fixes_override || self.switches.override_cancel { 100 } else { self.percents.feed }
+    }
+
     /// The speeds that override switches, DRY RUN and parameters give.
     pub(super) fn pass_overrides(&mut self) {
         let station = &self.configuration.control.station;
         let fitting = self.interpreter().fitting();
         let jog = fitting.parameter(station.jog_speed);
         let part = |percent: u16| f64::from(percent) / 100.0;
-        let mut overrides = Overrides {
-            feed: if self.fixes_override { 1.0 } else { part(self.percents.feed) },
-            spindle: part(self.percents.spindle),
-            ..Overrides::default()
-        };
+        let mut overrides =
+            Overrides { feed: part(self.feed_percent()), spindle: part(self.percents.spindle), ..Overrides::default() };
         // The lowest step is a rate of its own, not a part of the axis' rate.
         match self.percents.rapid {
             0 => overrides.rapid_limit = fitting.parameter_if_any(station.lowest_rapid) / 60.0,

@@ -83,7 +83,7 @@ impl Hand {
             0 => return false,
             1 => {
                 let on = self.throw(2) == 0;
-                if session.set_switch("single-block", None, on).is_ok() {
+                if session.set_switch("single-block", station::Which::One, on).is_ok() {
                     session.stand_soon();
                 }
             }
