@@ -10,7 +10,9 @@ use dialect::ParameterSetting;
 use machine::{Event, EventKind};
 use proptest::prelude::*;
 use proptest::sample::select;
-use station::{Action, OffsetColumn, Operator, OverrideSwitch, Said, Session, Setup, Show, Until, Value, read_action};
+use station::{
+    Action, OffsetColumn, Operator, OverrideSwitch, Said, Session, Setup, Show, Until, Value, Which, read_action,
+};
 use watch::{Texts, Watch, configuration, machine};
 
 /// Programs with all that can hold one up, and (first) one that works whatever came before it.
@@ -85,11 +87,17 @@ fn write() -> impl Strategy<Value = Action> {
                 "aux-lock",
                 "z-cancel",
                 "manual-absolute",
+                "override-cancel",
+                "start-lock",
+                "mirror-image",
                 "nothing"
             ]),
             any::<bool>()
         )
-            .prop_map(|(name, on)| Action::Switch(name, station::Which::One, on)),
+            .prop_map(|(name, on)| {
+                let which = if name == "mirror-image" { Which::Axis(b'X') } else { Which::One };
+                Action::Switch(name, which, on)
+            }),
         (switch, percent).prop_map(|(switch, percent)| Action::Override(switch, percent)),
         (select(vec![0, 31, 100]), number.clone()).prop_map(|(cell, mm)| Action::Offset(
             OffsetColumn::Common,
@@ -160,6 +168,8 @@ const OF_PROGRAMS: &[&str] = &[
     "tape 1",
     "verify",
     "switch edit-lock on",
+    "touch 31",
+    "touch 5 at 10",
 ];
 
 fn action() -> impl Strategy<Value = Action> {
@@ -268,6 +278,8 @@ impl Station {
             // It may wait, and be refused then.
             Some((shown, _)) if moving => drop(written.remove(&shown)),
             Some((shown, value)) if !*refused => drop(written.insert(shown, value)),
+            // What it writes is not known here.
+            None if matches!(action, Action::Touch(..)) => drop(written.remove("offset 31")),
             _ => {}
         }
         assert!(may_move || !moved, "no motion without a cause: {action}, {from:?} to {to:?}");
@@ -311,6 +323,8 @@ const TIDY: &[&str] = &[
     "switch machine-lock off",
     "switch z-cancel off",
     "switch edit-lock off",
+    "switch start-lock off",
+    "switch mirror-image=X off",
     "override feed 100",
     "reset",
     "mode memory",
