@@ -5,18 +5,20 @@
 mod watch;
 
 use std::collections::BTreeMap;
+use std::sync::{Arc, LazyLock};
 
-use dialect::ParameterSetting;
+use dialect::{Control, ParameterSetting};
 use machine::{Event, EventKind};
 use proptest::prelude::*;
 use proptest::sample::select;
 use station::{
-    Action, OffsetColumn, Operator, OverrideSwitch, Said, Session, Setup, Show, Until, Value, Which, read_action,
+    Action, Configuration, OffsetColumn, Operator, OverrideSwitch, Said, Session, Setup, Show, Until, Value, Which,
+    read_action,
 };
 use watch::{Texts, Watch, configuration, machine};
 
 /// Programs with all that can hold one up, and (first) one that works whatever came before it.
-const PROGRAMS: &[&str] = &[
+const PROGRAMS: [&str; 11] = [
     "O1\nG21G90G53G00X1.Y2.Z3.\nM30\n",
     "O2\nG90G00X5.\nM00\nG01Y5.F500\nG91G81X1.Y1.Z-1.R-1.L3\nM02\n",
     "O3\nG90G00X5.\nX2000.\nG91\nG92X0Y0Z0\nG20\nM30\n",
@@ -29,6 +31,34 @@ const PROGRAMS: &[&str] = &[
     "O10\nG51X0Y0P2000\nG01X1.F500\nG50\nG66P5\nG00Y1.\nG67\nG12I5.D31F300\n#3003=3\n#3004=7\nG76X2.Z-1.R0Q0.5F100\nG80M08\nG04P100\nM30\n",
     "M99P7\nN7M02\nN8G90G00X3.\nM99P8\n",
 ];
+
+/// The same for a control whose programs are files.
+const FILES: [&str; 11] = [
+    "G21\nG90\nG53X1.Y2.Z3.\nM30\n",
+    "G90G00X5.\nM00\nG01Y5.F500\nG91G81X1.Y1.Z-1.R-1.F100\nM02\n",
+    "G90G00X5.\nX2000.\nG91\nG92X0Y0Z0\nG20\nM30\n",
+    "M98 P4\nM01\n/G00X1.\nG43Z5.H1\nT1M06\nS500M03\nM30\n",
+    "G91G00X1.\nG04P500\nM99\n",
+    "G02X1.\nM30\n",
+    "G41D1\nG01X5.F100\nG28X0\nM30\n",
+    "",
+    "#100=1\nG91G31X10.F1000\nWHILE[#100LT3]DO1\n#100=#100+1\nG00X#100\nEND1\nX1.\nX1.\nN9M30\n",
+    "G51X0Y0P2000\nG01X1.F500\nG50\nG52X5.\nG68X0Y0R30.\nG00Y1.\nG69\nG76X2.Z-1.R0Q0.5F100\nG80\nM08\nG04P100\nM30\n",
+    "N7M97P9\nN8G90G00X3.\nM99\nN9X1.\nM99\n",
+];
+
+/// Where the operator stands: a control, and a machine.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum At {
+    Yasnac,
+    /// The builder's logic changes tools and looks for dogs.
+    ToolChanger,
+    Incon,
+}
+
+fn place() -> impl Strategy<Value = At> {
+    select(vec![At::Yasnac, At::Yasnac, At::ToolChanger, At::Incon])
+}
 
 /// Blocks to type.
 const TYPED: &[&str] =
@@ -227,8 +257,22 @@ fn writes(action: &Action) -> Option<(String, String)> {
 
 impl Station {
     fn new() -> Station {
-        let texts = Texts { texts: PROGRAMS.iter().map(|text| text.as_bytes().to_vec()).collect(), ..Texts::default() };
-        let session = Session::new(configuration(machine("stock-vmc", None), &Setup::default()), texts);
+        Station::of(At::Yasnac)
+    }
+
+    fn of(at: At) -> Station {
+        static INCON: LazyLock<Arc<Control>> = LazyLock::new(|| watch::load("incon-m84"));
+        let programs = if at == At::Incon { FILES } else { PROGRAMS };
+        let texts = Texts { texts: programs.iter().map(|text| text.as_bytes().to_vec()).collect(), ..Texts::default() };
+        let configuration = match at {
+            At::Yasnac => configuration(machine("stock-vmc", None), &Setup::default()),
+            At::ToolChanger => configuration(machine("tool-changer", None), &Setup::default()),
+            At::Incon => {
+                let machine = machine("stock-vmc-4", None);
+                Configuration::new(INCON.clone(), machine, &[&Setup::default()]).expect("the set-up fits")
+            }
+        };
+        let session = Session::new(configuration, texts);
         let watch = Watch::new(&session, true);
         let mut station = Station {
             operator: Operator::new(session),
@@ -289,6 +333,18 @@ impl Station {
         lines.iter().for_each(|line| self.perform(&read_action(line).expect(line)));
     }
 
+    /// Every axis by hand to its reference point.
+    fn return_axes(&mut self) {
+        self.script(&["mode return"]);
+        let letters: Vec<_> =
+            self.operator.session.configuration().machine.axes.iter().map(|axis| axis.letter).collect();
+        for letter in letters {
+            self.perform(&Action::Home(letter));
+            assert!(!self.refused, "home {}", char::from(letter));
+            self.script(&["run until idle"]);
+        }
+    }
+
     fn shows(&mut self, what: &str) -> String {
         let Ok(Action::Show(show)) = read_action(&format!("show {what}")) else { panic!("{what}") };
         format!("{:?}", self.operator.display(&show))
@@ -334,8 +390,8 @@ proptest! {
     #![proptest_config(config())]
 
     #[test]
-    fn whatever_was_done_reset_and_another_program_go_on(actions in prop::collection::vec(action(), 0..25)) {
-        let mut station = Station::new();
+    fn whatever_was_done_reset_and_another_program_go_on(at in place(), actions in prop::collection::vec(action(), 0..25)) {
+        let mut station = Station::of(at);
         actions.iter().for_each(|action| station.perform(action));
         station.script(TIDY);
         let counts = station.operator.session.counted_position().map(|mm| (mm * 1e6).round());
@@ -347,7 +403,9 @@ proptest! {
             prop_assert!(shows.contains(&value), "{} was written as {}: {}", shown, value, shows);
         }
         // What a lock has kept back is made up for by the return to the reference point, which power-on asks for anyway.
-        station.script(&["power-off", "power-on", "mode mdi", "mdi G91G28X0Y0Z0", "cycle-start", "run until idle", "mode memory", "load 0 as P0", "select P0"]);
+        station.script(&["power-off", "power-on"]);
+        station.return_axes();
+        station.script(&["mode memory", "load 0 as P0", "select P0"]);
         station.events.clear();
         station.script(&["cycle-start", "run until idle"]);
         let kinds: Vec<EventKind> = station.events.iter().map(|event| event.kind).collect();
@@ -383,8 +441,8 @@ proptest! {
     }
 
     #[test]
-    fn what_is_refused_changes_nothing(actions in prop::collection::vec(action(), 0..25)) {
-        let (mut all, mut taken) = (Station::new(), Station::new());
+    fn what_is_refused_changes_nothing(at in place(), actions in prop::collection::vec(action(), 0..25)) {
+        let (mut all, mut taken) = (Station::of(at), Station::of(at));
         for action in &actions {
             let before: Vec<String> = PAGES.iter().map(|page| all.shows(page)).collect();
             let (events, time) = (all.events.len(), all.operator.session.time());
