@@ -382,6 +382,7 @@ const TIDY: &[&str] = &[
     "switch start-lock off",
     "switch mirror-image=X off",
     "override feed 100",
+    "override rapid 100",
     "reset",
     "mode memory",
 ];
