@@ -189,7 +189,7 @@ ACTIONS = {
     "PowerOn": "`power-on`", "PowerOff": "`power-off`", "Load": "`load`", "Select": "`select`", "Mode": "`mode`", "Type": "`mdi`",
     "CycleStart": "`cycle-start`", "FeedHold": "`feed-hold`", "Reset": "`reset`", "Key": "`key` (then as what the key does)",
     "EmergencyStop": "`emergency-stop`", "Release": "`release`", "Turn": "`switch`, `override`, `input`", "Offset": "`offset`, `work`",
-    "Touch": "`touch`", "Parameter": "`parameter`", "Variable": "`variable`", "Fault": "`fault`", "Show": "`show`", "Run": "`run`", "Jog": "`jog`", "Step": "`step`", "Home": "`home`", "Restart": "`restart`", "Search": "`search`", "Edit": "`edit`", "Tape": "`tape`, `verify`",
+    "Touch": "`touch`", "Origin": "`origin`", "Parameter": "`parameter`", "Variable": "`variable`", "Fault": "`fault`", "Show": "`show`", "Run": "`run`", "Jog": "`jog`", "Step": "`step`", "Home": "`home`", "Restart": "`restart`", "Search": "`search`", "Edit": "`edit`", "Tape": "`tape`, `verify`",
 }
 OPERATING = """The control is always in one of the ten states below. An action that it takes there is marked *yes*; any other is refused, changes
 nothing, and the letter says why. `cyclestart operate` answers from the same table.
@@ -214,7 +214,12 @@ rest of a straight move already lead to its end. An arc is made beside its place
 
 **Touching off.** `touch H1` writes the position of Z into the offset page as the length of tool 1, `touch H1 at 50` over a gauge of 50 mm
 (`touch 31` where lengths and radii share their numbers). Policy `touch-off` says which position: on the relative display, in the work
-system in force, or on the machine. For the relative one, bring the standard tool to the place and set Z of the relative display to zero there.
+system in force, or on the machine. For the relative one, bring the standard tool to the place and set Z of the relative display to zero there:
+`origin Z`.
+
+**The relative display** (UNIVERSAL) counts from where the operator says, as the key ORG does: `origin X` makes it show zero where the axis
+stands, `origin Z = 100` this number, `origin all` zero on every axis. Nothing moves and no coordinates change. It is taken whenever the
+power is on, also while axes move; it stays until the next `origin`, a G92 that presets this display, or power-on.
 
 By itself `operate` lets time pass only with `run`, and as fast as it can. With `--realtime` time passes by the clock, a servo period
 at a time. `cyclestart operate - --realtime` is a panel: each line on standard input acts when it comes, `--displays 60` prints position,

@@ -93,7 +93,15 @@ impl Texts {
 
     /// A text that is not in a file under this name, or not yet.
     pub fn hold(&mut self, name: &str, bytes: Vec<u8>) -> Result<SourceId, Failure> {
-        self.spooled(name, Box::new(io::Cursor::new(bytes))).map_err(Failure::call)
+        self.written(name, bytes).map_err(Failure::call)
+    }
+
+    /// A text at hand, in a temporary file.
+    fn written(&mut self, name: &str, bytes: Vec<u8>) -> Result<SourceId, String> {
+        let source = self.spooled(name, Box::new(io::Cursor::new(bytes)))?;
+        let spooled = self.sources.last_mut().map_or(Ok(()), |source| source.spool(u64::MAX));
+        spooled.map_err(|error| format!("no room to spool {name}: {error}"))?;
+        Ok(source)
     }
 
     /// A stream, which is written to a temporary file as far as it is read.
@@ -273,6 +281,12 @@ impl Library for Texts {
         Ok(None)
     }
 
+    fn size(&self, source: SourceId) -> Option<u64> {
+        let source = self.sources.get(source.0 as usize)?;
+        // Of a stream it is known once that has been read to its end.
+        source.rest.is_none().then_some(source.length)
+    }
+
     fn file_name(&self, source: SourceId) -> Option<String> {
         self.sources.get(source.0 as usize).map(|source| Texts::program_name(&source.name))
     }
@@ -288,7 +302,7 @@ impl Shelf for Texts {
         let mut source = self.opened(&path).map_err(LibraryError)?;
         if self.copies {
             let bytes = self.bytes_of(source)?;
-            source = self.spooled(&path, Box::new(io::Cursor::new(bytes))).map_err(LibraryError)?;
+            source = self.written(&path, bytes).map_err(LibraryError)?;
         }
         self.look_beside(&path);
         Ok((source, Texts::program_name(file)))
@@ -309,7 +323,7 @@ impl Shelf for Texts {
     }
 
     fn hold_text(&mut self, name: &str, text: Vec<u8>) -> Result<SourceId, LibraryError> {
-        self.spooled(name, Box::new(io::Cursor::new(text))).map_err(LibraryError)
+        self.written(name, text).map_err(LibraryError)
     }
 }
 

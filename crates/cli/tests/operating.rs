@@ -38,6 +38,7 @@ const ACTIONS: &[&str] = &[
     "input skip on",
     "offset 31 = 1.5",
     "touch 31",
+    "origin X",
     "work G54 X = 2",
     "parameter 6005 = 0",
     "variable 500 = 3",

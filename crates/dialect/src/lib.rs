@@ -54,7 +54,7 @@ pub use row::{
     Certainty, Class, Division, GCode, MCode, OptionRow, Origin, ParameterBit, ParameterKind, ParameterRow, PolicyRow,
     Takes,
 };
-pub use station::{Key, ModeKind, ModeRow, StationTable, SwitchRow};
+pub use station::{DisplayRow, Key, ModeKind, ModeRow, SHOWN, StationTable, SwitchRow};
 pub use transform::{RatioUnit, RotationRule, ScaledAxes, ScalingRule};
 pub use word_order::put_in_order;
 

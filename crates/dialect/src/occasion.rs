@@ -59,6 +59,8 @@ states! {
     LabelSkip = "label-skip",
     /// The local origin in every work system (G52).
     LocalSystem = "local-system",
+    /// Where the UNIVERSAL display shows zero.
+    Universal = "universal-display",
     /// Whether the reference points are established.
     ReferencePoints = "reference-points",
 }

@@ -59,6 +59,40 @@ pub struct SwitchRow {
     pub origin: Origin,
 }
 
+/// What the pages of a control can show: a display of the station, or of the positions one of them.
+pub const SHOWN: &[&str] = &[
+    "modal",
+    "position.universal",
+    "position.work",
+    "position.machine",
+    "position.distance_to_go",
+    "alarm",
+    "alarms",
+    "offsets",
+    "works",
+    "parameters",
+    "variables",
+    "program",
+    "directory",
+    "command",
+    "diagnosis",
+];
+
+/// A page of the control's displays.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct DisplayRow {
+    /// The key that calls it.
+    pub key: String,
+    /// Its name.
+    pub name: String,
+    /// What it shows, one of [`SHOWN`].
+    pub shows: String,
+    /// What it is for, for people.
+    pub text: String,
+    /// What the row rests on.
+    pub origin: Origin,
+}
+
 /// The station as the tables describe it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct StationTable {
@@ -92,11 +126,18 @@ pub struct StationTable {
     pub end_rewinds: bool,
     /// Index of the parameter that says whether M02 does too: 0 = no, 1 = yes.
     pub m02_rewinds: Option<usize>,
+    /// The pages of the displays, in the order of their keys.
+    pub displays: Vec<DisplayRow>,
     /// What becomes of every state that is no modal group.
     pub states: Vec<StateRow>,
 }
 
 impl StationTable {
+    /// True if one of the control's pages shows this display, or a part of it.
+    pub fn shows(&self, display: &str) -> bool {
+        self.displays.iter().any(|row| row.shows.split('.').next() == Some(display))
+    }
+
     /// The mode of this name.
     pub fn mode(&self, name: &str) -> Option<&ModeRow> {
         self.modes.iter().find(|mode| mode.name == name)

@@ -4,6 +4,7 @@
 //! the motion go out when it has ended, one block's together, and are waited for before anything else moves.
 
 mod codes;
+mod lines;
 mod logic;
 
 pub use codes::Wait;

@@ -173,6 +173,11 @@ impl Interpreter {
         self.reader.names.name(program)
     }
 
+    /// How a text is read, text or tape, once that is known.
+    pub fn format_of(&self, source: SourceId) -> Option<tape::Format> {
+        self.reader.supply.format(source)
+    }
+
     /// Where the text of a called program that was read last ended before its M99.
     pub fn unreturned(&self) -> Option<Place> {
         self.reader.unreturned
@@ -191,6 +196,11 @@ impl Interpreter {
     /// The value of a macro variable of the level in execution; `None` is a blank or no such variable.
     pub fn variable(&self, number: u32) -> Option<f64> {
         self.reader.variable(number)
+    }
+
+    /// The level of macro calls whose local variables are read and written, 0 for the main program.
+    pub fn macro_level(&self) -> usize {
+        self.reader.macro_level()
     }
 
     /// Writes a macro variable by hand; `None` blanks it. False if there is none that may be written so.
@@ -216,6 +226,11 @@ impl Interpreter {
     /// What the control is executing: the block at the front of the queue.
     pub fn executing(&self) -> Option<&Command> {
         self.queue.front()
+    }
+
+    /// The block being executed and those that the control has read behind it, in their order.
+    pub fn held(&self) -> impl Iterator<Item = &Command> {
+        (0..self.queue.len()).map_while(|index| self.queue.behind(index))
     }
 
     /// The block whose last operation was handed out last and the one executed before it, also where a reset at the

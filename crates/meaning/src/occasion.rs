@@ -51,6 +51,7 @@ fn take(state: &mut State, item: StateItem, from: &State) {
         StateItem::ReferencePoints => state.reference.established = from.reference.established,
         StateItem::Corner => state.corner = from.corner,
         StateItem::Interrupt => state.interrupt = from.interrupt,
+        StateItem::Universal => state.universal_zero = from.universal_zero,
         StateItem::Buffering => state.buffering = from.buffering,
         // Not part of what a block leaves to the next.
         StateItem::VolatileVariables | StateItem::ProgramPointer | StateItem::LabelSkip => {}

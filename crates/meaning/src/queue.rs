@@ -34,6 +34,11 @@ impl Queue {
         if index < self.len { self.ring.get((self.front + index) % HELD) } else { None }
     }
 
+    /// As [`Queue::behind`], to write what an operator writes.
+    pub fn behind_mut(&mut self, index: usize) -> Option<&mut Command> {
+        if index < self.len { self.ring.get_mut((self.front + index) % HELD) } else { None }
+    }
+
     /// The command being executed, to correct where it ends.
     pub fn front_mut(&mut self) -> Option<&mut Command> {
         if self.len == 0 { None } else { self.ring.get_mut(self.front) }

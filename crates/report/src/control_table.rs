@@ -21,6 +21,7 @@ pub fn control_table(control: &Control) -> String {
     groups(control, &mut out);
     states(control, &mut out);
     modes(control, &mut out);
+    displays(control, &mut out);
     m_codes(control, &mut out);
     addresses(control, &mut out);
     options_and_policies(control, &mut out);
@@ -114,6 +115,18 @@ fn modes(control: &Control, out: &mut String) {
     heading(out, "Switches of the operator's panel   (--switch NAME)");
     for switch in &control.station.switches {
         let _ = writeln!(out, "{:<16} {}  {}", switch.name, switch.origin.certainty.0, switch.text);
+    }
+    out.push('\n');
+}
+
+fn displays(control: &Control, out: &mut String) {
+    heading(out, "Pages of the displays   (key, page, what `show` prints of it)");
+    for row in &control.station.displays {
+        let _ = writeln!(
+            out,
+            "{:<10} {:<18} {:<24} {}  {}",
+            row.key, row.name, row.shows, row.origin.certainty.0, row.text
+        );
     }
     out.push('\n');
 }

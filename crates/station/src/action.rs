@@ -19,14 +19,32 @@ pub enum Show {
     Machine,
     /// The alarms that stand.
     Alarm,
+    /// The alarms that have been.
+    Alarms,
     /// An offset.
     Offset(OffsetColumn, u32),
+    /// Every offset.
+    Offsets,
     /// The origin of a work system.
     Work(String),
+    /// Every origin, and what shifts them.
+    Works,
     /// A parameter, or one bit of it.
     Parameter(String, Option<u8>),
+    /// Every parameter.
+    Parameters,
     /// A macro variable.
     Variable(u32),
+    /// Every variable that holds something.
+    Variables,
+    /// The programs in memory.
+    Directory,
+    /// The blocks that the control holds: the one being executed and those read ahead.
+    Command,
+    /// The lines between control and machine.
+    Diagnosis,
+    /// The pages that the control has.
+    Displays,
     /// The feed.
     Feed,
     /// The program page: what is selected, and the words in force.
@@ -113,6 +131,9 @@ pub enum Action {
     Touch(OffsetColumn, u32, f64),
     /// `work G54 X = 100.0`, mm or degrees
     Work(String, u8, f64),
+    /// `origin X`, `origin Z = 100`, `origin all`: what the UNIVERSAL display shows of an axis where it stands, mm or
+    /// degrees; without an axis all of them
+    Origin(Option<u8>, f64),
     /// `parameter 6005.2 = 1`
     Parameter(dialect::ParameterSetting),
     /// `variable 500 = 1.5`; no value makes it blank
@@ -152,6 +173,27 @@ fn cell(column: OffsetColumn, number: u32) -> String {
     }
 }
 
+impl Show {
+    /// The display of the control that this is, or is a part of; `None` for what every station shows.
+    pub const fn display(&self) -> Option<&'static str> {
+        Some(match self {
+            Show::Modal => "modal",
+            Show::Position => "position",
+            Show::Alarm => "alarm",
+            Show::Alarms => "alarms",
+            Show::Offset(..) | Show::Offsets => "offsets",
+            Show::Work(_) | Show::Works => "works",
+            Show::Parameter(..) | Show::Parameters => "parameters",
+            Show::Variable(_) | Show::Variables => "variables",
+            Show::Program => "program",
+            Show::Directory => "directory",
+            Show::Command => "command",
+            Show::Diagnosis => "diagnosis",
+            Show::Machine | Show::Feed | Show::State | Show::Displays => return None,
+        })
+    }
+}
+
 impl fmt::Display for Show {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -160,6 +202,15 @@ impl fmt::Display for Show {
             Show::Machine => f.write_str("machine"),
             Show::Alarm => f.write_str("alarm"),
             Show::Offset(column, number) => write!(f, "offset {}", cell(*column, *number)),
+            Show::Alarms => f.write_str("alarms"),
+            Show::Offsets => f.write_str("offsets"),
+            Show::Works => f.write_str("works"),
+            Show::Parameters => f.write_str("parameters"),
+            Show::Variables => f.write_str("variables"),
+            Show::Directory => f.write_str("directory"),
+            Show::Command => f.write_str("command"),
+            Show::Diagnosis => f.write_str("diagnosis"),
+            Show::Displays => f.write_str("displays"),
             Show::Work(system) => write!(f, "work {system}"),
             Show::Parameter(name, None) => write!(f, "parameter {name}"),
             Show::Parameter(name, Some(bit)) => write!(f, "parameter {name}.{bit}"),
@@ -208,6 +259,9 @@ impl fmt::Display for Action {
             Action::Touch(column, number, 0.0) => write!(f, "touch {}", cell(*column, *number)),
             Action::Touch(column, number, mm) => write!(f, "touch {} at {mm}", cell(*column, *number)),
             Action::Work(system, axis, mm) => write!(f, "work {system} {} = {mm}", char::from(*axis)),
+            Action::Origin(None, _) => f.write_str("origin all"),
+            Action::Origin(Some(axis), 0.0) => write!(f, "origin {}", char::from(*axis)),
+            Action::Origin(Some(axis), mm) => write!(f, "origin {} = {mm}", char::from(*axis)),
             Action::Parameter(setting) => match setting.bit {
                 None => write!(f, "parameter {} = {}", setting.name, setting.value),
                 Some(bit) => write!(f, "parameter {}.{bit} = {}", setting.name, setting.value),

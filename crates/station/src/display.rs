@@ -1,6 +1,11 @@
 //! The panel's displays as values: what a script's `show` prints and a panel's pages draw.
 
-use base::{AXES, Alarm, Diagnostic, Point};
+mod alarms;
+mod command;
+mod diagnosis;
+mod lists;
+
+use base::{AXES, Point};
 use dialect::{GroupCodes, MMeaning, Meaning};
 use machine::Waiting;
 use meaning::{CodeLine, Corner};
@@ -9,7 +14,7 @@ use crate::action::Show;
 use crate::library::Library;
 use crate::memory::{self, WorkSystem};
 use crate::operator::Operator;
-use crate::session::{Session, TYPED};
+use crate::session::Session;
 
 /// A value of a display.
 #[derive(Clone, PartialEq, Debug)]
@@ -33,6 +38,11 @@ impl Value {
         Value::Object(fields.map(|(name, value)| (name.to_owned(), value)).into())
     }
 
+    /// An object of fields that are there or not.
+    fn fields(fields: Vec<(&str, Value)>) -> Value {
+        Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
+    }
+
     fn text(text: &str) -> Value {
         Value::Text(text.to_owned())
     }
@@ -52,14 +62,27 @@ impl<L: Library> Operator<L> {
     /// # Errors
     /// The control has no such page.
     pub fn display(&mut self, show: &Show) -> Result<Value, String> {
+        let control = &self.session.configuration().control;
+        if let Some(display) = show.display().filter(|display| !control.station.shows(display)) {
+            return Err(format!(
+                "the {} has no page that shows {display}; `show displays` lists its pages",
+                control.title
+            ));
+        }
         Ok(match show {
             Show::Modal => modal(&self.session, &self.session.interpreter().executing_state().groups),
             Show::Position => position(&self.session),
             Show::Machine => machine(&self.session),
-            Show::Alarm => {
-                let alarm = self.session.alarm().copied();
-                Value::List(alarm.iter().map(|alarm| alarm_line(&mut self.session, alarm)).collect())
-            }
+            Show::Alarm => alarms::standing(&mut self.session),
+            Show::Alarms => alarms::past(&self.session),
+            Show::Offsets => lists::offsets(&self.session),
+            Show::Works => lists::works(&self.session),
+            Show::Parameters => lists::parameters(&mut self.session),
+            Show::Variables => lists::variables(&self.session)?,
+            Show::Directory => self.directory(),
+            Show::Command => command::command(&mut self.session),
+            Show::Diagnosis => diagnosis::diagnosis(&self.session),
+            Show::Displays => lists::displays(&self.session),
             Show::Offset(column, number) => {
                 let interpreter = self.session.interpreter();
                 let value = memory::read_named_offset(interpreter.control(), interpreter.memory(), *column, *number);
@@ -217,7 +240,7 @@ fn machine<L: Library>(session: &Session<L>) -> Value {
     if !lines.is_empty() {
         shown.push(("lines", Value::Object(lines)));
     }
-    Value::Object(shown.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
+    Value::fields(shown)
 }
 
 /// Which axes have been returned to their reference point.
@@ -259,36 +282,4 @@ fn feed<L: Library>(session: &Session<L>) -> Value {
         ("override", Value::Number(f64::from(session.percents().feed))),
         ("actual", Value::Number(actual)),
     ])
-}
-
-fn alarm_line<L: Library>(session: &mut Session<L>, alarm: &Alarm) -> Value {
-    let diagnostic = diagnose(session, alarm);
-    let name = diagnostic.alarm.as_ref();
-    let line = if alarm.place.line > 0 { Value::Number(alarm.place.line as f64) } else { Value::Null };
-    Value::object([
-        ("name", Value::text_or_null(name.map(|name| name.name.as_str()))),
-        ("number", Value::number_or_null(name.and_then(|name| name.number).map(f64::from))),
-        ("text", Value::Text(diagnostic.message)),
-        ("line", line),
-    ])
-}
-
-/// The alarm in words; the word that it is about is read from its text.
-fn diagnose<L: Library>(session: &mut Session<L>, alarm: &Alarm) -> Diagnostic {
-    let (from, len) = (alarm.span.start, alarm.span.len as usize);
-    let mut bytes = Vec::new();
-    if alarm.place.source == TYPED {
-        let text = session.typed_text();
-        let from = usize::try_from(from).unwrap_or(usize::MAX).min(text.len());
-        bytes.extend(text[from..].iter().take(len));
-    } else if alarm.place.line > 0 {
-        // A text that can no longer be read leaves the word out.
-        let _ = session.library_mut().read(alarm.place.source, from, len, &mut bytes);
-    }
-    let configuration = session.configuration();
-    let axis = alarm.axis.and_then(|axis| configuration.machine.axes.get(usize::from(axis)));
-    let axis = axis.map(|axis| (char::from(axis.letter), axis.rotary));
-    let word = configuration.machine.words_of(alarm);
-    let word = word.unwrap_or_else(|| String::from_utf8_lossy(&bytes).into_owned());
-    configuration.control.diagnose(alarm, &word, axis)
 }

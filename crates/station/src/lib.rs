@@ -32,6 +32,6 @@ pub use kept::{Cell, CellKind};
 pub use library::{Library, LibraryError, Shelf, Wanted};
 pub use operator::{Interrupted, Operator, Panel, Said};
 pub use script::{ScriptError, ScriptLine, read_action, read_script, split_offset, split_parameter, without_comment};
-pub use session::{AfterAlarm, Asked, HandMove, Percents, RestartPlan, Session, Step, TYPED, Way};
+pub use session::{AfterAlarm, Asked, HandMove, PastAlarm, Percents, RestartPlan, Session, Step, TYPED, Way};
 pub use setup::{OffsetColumn, Setup, read_setup};
 pub use switches::{SessionSwitches, Which, split_switch};

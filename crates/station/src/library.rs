@@ -38,6 +38,11 @@ pub trait Library {
     /// A file of that name is there and cannot be read.
     fn find_program(&mut self, wanted: Wanted) -> Result<Option<SourceId>, LibraryError>;
 
+    /// How many bytes a source has, if that is known without reading it.
+    fn size(&self, _source: SourceId) -> Option<u64> {
+        None
+    }
+
     /// The name of a program that is a file, without folder and ending; `None` if it is not known.
     fn file_name(&self, _source: SourceId) -> Option<String> {
         None

@@ -105,7 +105,9 @@ pub fn read_action(line: &str) -> Result<Action, String> {
             Action::Switch(name, which, on_or_off(state)?)
         }
         ("override", [switch, percent]) => Action::Override(override_switch(switch)?, whole(percent, "percentage")?),
-        ("offset" | "work" | "parameter" | "variable", _) => write(verb, rest, line)?,
+        ("origin", ["all"]) => Action::Origin(None, 0.0),
+        ("origin", [axis]) if !axis.contains('=') => Action::Origin(Some(axis_letter(axis)?), 0.0),
+        ("offset" | "work" | "origin" | "parameter" | "variable", _) => write(verb, rest, line)?,
         ("touch", [cell, of @ ..]) => {
             let (column, number) = split_offset(cell)?;
             let height = match of {
@@ -177,6 +179,7 @@ fn write(verb: &str, rest: &str, line: &str) -> Result<Action, String> {
             },
             _ => return Err(format!("`{line}`: write work G54 X = 100.0")),
         },
+        "origin" => Action::Origin(Some(axis_letter(name)?), finite(value)?),
         "parameter" => {
             let (name, bit) = split_parameter(name)?;
             Action::Parameter(ParameterSetting { name, bit, value: value.to_owned() })
@@ -200,6 +203,15 @@ fn show(what: &str, of: &str) -> Option<Result<Show, String>> {
         ("machine", "") => Show::Machine,
         ("alarm", "") => Show::Alarm,
         ("feed", "") => Show::Feed,
+        ("alarms", "") => Show::Alarms,
+        ("offsets", "") => Show::Offsets,
+        ("works", "") => Show::Works,
+        ("parameters", "") => Show::Parameters,
+        ("variables", "") => Show::Variables,
+        ("directory", "") => Show::Directory,
+        ("command", "") => Show::Command,
+        ("diagnosis", "") => Show::Diagnosis,
+        ("displays", "") => Show::Displays,
         ("program", "") => Show::Program,
         ("state", "") => Show::State,
         (_, "") => return None,
@@ -285,6 +297,18 @@ mod tests {
             "touch 31",
             "touch H1 at 50",
             "work G54 X = 100",
+            "origin X",
+            "origin Z = -100.5",
+            "origin all",
+            "show alarms",
+            "show offsets",
+            "show works",
+            "show parameters",
+            "show variables",
+            "show directory",
+            "show command",
+            "show diagnosis",
+            "show displays",
             "parameter 6005.2 = 1",
             "parameter cycle clearance = 2",
             "variable 500 = 1.5",
@@ -330,6 +354,10 @@ mod tests {
             "touch 31 at",
             "touch 31 on 5",
             "work G54 = 1",
+            "origin",
+            "origin all = 5",
+            "origin X 5",
+            "show alarms 3",
             "override feed fast",
             "show",
             "run until",

@@ -1,11 +1,13 @@
 //! A program in execution: the stages chained, their questions answered, their events handed out one by one.
 
+mod alarm_history;
 mod approach;
 mod awaiting;
 mod barriers;
 mod by_hand;
 mod dwelling;
 mod execution;
+mod lines;
 mod live;
 mod locks;
 mod pointer;
@@ -18,6 +20,8 @@ mod trial;
 mod trips;
 mod typed;
 
+use std::collections::VecDeque;
+
 use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
 use machine::{Event, EventKind, Machine, VirtualMachine};
 use meaning::{Interpreter, Switches, TRANSFORMED};
@@ -29,6 +33,7 @@ use crate::library::{Library, LibraryError};
 use crate::lock::AxisLock;
 use crate::switches::{SessionSwitches, Which};
 
+pub use alarm_history::PastAlarm;
 pub use approach::RestartPlan;
 pub use by_hand::HandMove;
 pub use locks::Percents;
@@ -149,6 +154,8 @@ pub struct Session<L> {
     /// The emergency stop button is pressed.
     emergency: bool,
     alarm: Option<Alarm>,
+    /// Those that somebody who works the control has been told.
+    past_alarms: VecDeque<PastAlarm>,
     ended: bool,
     rewound: bool,
     failed: Option<LibraryError>,
@@ -234,6 +241,7 @@ impl<L: Library> Session<L> {
             label_skip: true,
             emergency: false,
             alarm: None,
+            past_alarms: VecDeque::new(),
             ended: true,
             rewound: true,
             failed: None,

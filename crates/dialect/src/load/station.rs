@@ -1,11 +1,11 @@
-//! `station.toml`: modes, override switches, what becomes of states.
+//! `station.toml`: modes, override switches, pages of the displays, what becomes of states.
 
 use data::{DataError, Entry, Table};
 
 use super::{ControlFiles, origin, parameter_index, refuse};
 use crate::occasion::{Fate, StateItem, StateRow};
 use crate::row::{OptionRow, ParameterRow};
-use crate::station::{Key, ModeKind, ModeRow, StationTable, SwitchRow};
+use crate::station::{DisplayRow, Key, ModeKind, ModeRow, SHOWN, StationTable, SwitchRow};
 
 /// The station whose parameters are still names.
 pub(super) struct StationDraft {
@@ -26,6 +26,7 @@ pub(super) struct StationDraft {
     pub end_rewinds: bool,
     /// Name of the parameter: whether M02 rewinds.
     pub m02_rewinds: Option<String>,
+    pub displays: Vec<DisplayRow>,
     pub states: Vec<StateRow>,
     /// For each state the name of the parameter that keeps it.
     pub keeping: Vec<Option<String>>,
@@ -72,6 +73,7 @@ pub(super) fn station(root: &mut Table) -> StationDraft {
         state(row, &mut seen)
     });
     StationDraft {
+        displays: root.tables("display", display),
         keys: keys.unwrap_or_default(),
         end_resets,
         end_rewinds,
@@ -154,6 +156,21 @@ fn mode(row: &mut Table) -> ModeRow {
     }
 }
 
+fn display(row: &mut Table) -> DisplayRow {
+    let place = row.place_of("shows");
+    let shows = row.required_string("shows");
+    if let (false, Some(place)) = (SHOWN.contains(&shows.as_str()), place) {
+        row.error(place, format!("a page shows one of {}", SHOWN.join(", ")));
+    }
+    DisplayRow {
+        key: row.required_string("key"),
+        name: row.required_string("name"),
+        shows,
+        text: row.required_string("text"),
+        origin: origin(row),
+    }
+}
+
 fn state(row: &mut Table, seen: &mut Vec<StateItem>) -> StateRow {
     const FATES: &[(&str, Fate)] = &[("keep", Fate::Keep), ("initial", Fate::Initial)];
     row.require("item");
@@ -219,6 +236,7 @@ pub(super) fn resolve(
         switches: draft.switches,
         overrides: draft.overrides,
         increments: draft.increments,
+        displays: draft.displays,
         states,
     })
 }

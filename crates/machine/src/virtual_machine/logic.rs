@@ -50,7 +50,7 @@ impl VirtualMachine {
         }
     }
 
-    fn spindle_says(&self) -> [bool; 3] {
+    pub(super) fn spindle_says(&self) -> [bool; 3] {
         let spindle = &self.spindle;
         spindle_says(spindle.is_turning(), spindle.orients(), spindle.has_arrived())
     }

@@ -5,7 +5,9 @@ use dialect::{Fate, Occasion, ResetPointer, StateItem};
 use syntax::Cursor;
 
 use super::{Interpreter, to_counts};
+use crate::command::{Body, Command};
 use crate::occasion::state_after;
+use crate::operation::SetValue;
 use crate::program::Pointer;
 use crate::state::State;
 
@@ -80,6 +82,28 @@ impl Interpreter {
     /// The origin of the base work system at every later power-on (counts).
     pub fn lasting_base_origin(&self) -> &Point {
         &self.base_origin
+    }
+
+    /// The UNIVERSAL display shows zero at this machine coordinate of an axis (counts) from now on.
+    ///
+    /// It is a display's matter, so blocks read ahead begin with it too, up to one whose G92 presets that display itself.
+    pub fn set_universal_zero(&mut self, axis: usize, counts: f64) {
+        let presets = |command: &Command| matches!(&command.body, Body::Set(_, Some(SetValue::Universal { axes, .. })) if axes.has(axis));
+        let write = |state: &mut State| {
+            if let Some(zero) = state.universal_zero.get_mut(axis) {
+                *zero = counts;
+            }
+        };
+        // RESET goes back to what was executed last.
+        self.queue.kept_mut().for_each(|command| write(&mut command.after));
+        write(&mut self.start_state);
+        for index in 1..self.queue.len() {
+            match self.queue.behind_mut(index) {
+                Some(command) if !presets(command) => write(&mut command.after),
+                _ => return,
+            }
+        }
+        write(&mut self.reader.state);
     }
 
     /// Settings that follow the codes last executed, such as the unit of input, are written.

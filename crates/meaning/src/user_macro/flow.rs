@@ -411,6 +411,11 @@ impl Reader {
         (!value.is_nan()).then_some(value)
     }
 
+    /// The level whose local variables are read and written.
+    pub fn macro_level(&self) -> usize {
+        self.source().level
+    }
+
     /// Writes a local or common variable by hand.
     pub fn set_variable(&mut self, number: u32, value: f64) -> bool {
         let level = self.source().level;

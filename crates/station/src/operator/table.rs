@@ -80,6 +80,8 @@ enum Kind {
     Offset,
     /// Tool length by touching off.
     Touch,
+    /// What the UNIVERSAL display shows.
+    Origin,
     Parameter,
     Variable,
     /// Faults made on purpose.
@@ -116,6 +118,7 @@ fn kind(action: &Action) -> Kind {
         Action::Switch(..) | Action::Override(..) | Action::Input(..) => Kind::Turn,
         Action::Offset(..) | Action::Work(..) => Kind::Offset,
         Action::Touch(..) => Kind::Touch,
+        Action::Origin(..) => Kind::Origin,
         Action::Parameter(_) => Kind::Parameter,
         Action::Variable(..) => Kind::Variable,
         Action::Fault(_) => Kind::Fault,
@@ -202,6 +205,7 @@ const TABLE: &[(Kind, [Answer; SITUATIONS])] = &[
     (Kind::Turn,          [GO,        GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
     (Kind::Offset,        [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
     (Kind::Touch,         [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         GO,           GO]),
+    (Kind::Origin,        [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
     (Kind::Parameter,     [OFF,       GO,         GO,           GO,           GO,           MOVES,        RUNS,         RUNS,         STOPPED,      STOPPED]),
     (Kind::Variable,      [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),
     (Kind::Fault,         [OFF,       GO,         GO,           GO,           GO,           GO,           GO,           GO,           GO,           GO]),

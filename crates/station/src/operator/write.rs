@@ -1,5 +1,6 @@
 //! The panel's pages: offsets, work shifts, parameters, variables.
 
+use base::AXES;
 use dialect::{AxisLetter, ParameterSetting, TouchOff, VariableMeaning};
 
 use super::Operator;
@@ -18,6 +19,7 @@ impl<L: Library> Operator<L> {
             Action::Override(switch, percent) => self.turn_override(*switch, *percent),
             Action::Offset(column, number, mm) => self.write_offset(*column, *number, *mm),
             Action::Touch(column, number, height) => self.touch_off(*column, *number, *height),
+            Action::Origin(axis, shown) => self.set_origin(*axis, *shown),
             Action::Work(system, axis, mm) => self.write_work(system, *axis, *mm),
             Action::Parameter(setting) => self.write_parameter(setting),
             Action::Variable(number, value) => self.write_variable(*number, *value),
@@ -69,6 +71,23 @@ impl<L: Library> Operator<L> {
         };
         let increment = interpreter.control().increments[0] as f64 / 1e6;
         self.write_offset(column, number, ((place - height) / increment).round() * increment)
+    }
+
+    /// ORG: what the UNIVERSAL display shows of an axis, or of all of them, where they stand.
+    fn set_origin(&mut self, letter: Option<u8>, shown: f64) -> Result<(), String> {
+        let machine = &self.session.configuration().machine;
+        let axes = match letter {
+            Some(letter) => {
+                let axis = memory::axis_of(machine, letter).map_err(|error| error.0)?;
+                axis..axis + 1
+            }
+            None => 0..machine.axes.len().min(AXES),
+        };
+        if (shown * 1e6).abs() > MOST_COUNTS {
+            return Err(format!("no display shows a number as large as {shown}"));
+        }
+        axes.for_each(|axis| self.session.preset_universal(axis, shown));
+        Ok(())
     }
 
     fn write_work(&mut self, system: &str, letter: u8, mm: f64) -> Result<(), String> {

@@ -156,6 +156,13 @@ impl<L: Library> Session<L> {
         self.seen(self.interpreter().universal_position(&self.counted_position()))
     }
 
+    /// The UNIVERSAL display shows so much of an axis where it stands, mm or degrees.
+    pub fn preset_universal(&mut self, axis: usize, shown: f64) {
+        let counted = self.counted_position()[axis];
+        let zero = (counted * 1e6).round() - ((shown + self.unseen[axis]) * 1e6).round();
+        self.interpreter_mut().set_universal_zero(axis, zero);
+    }
+
     fn seen(&self, mut shown: Point) -> Point {
         for axis in 0..AXES {
             shown[axis] -= self.unseen[axis];

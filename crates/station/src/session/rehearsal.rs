@@ -291,6 +291,7 @@ impl<L: Library> Session<L> {
             label_skip: self.label_skip,
             emergency: self.emergency,
             alarm: None,
+            past_alarms: VecDeque::new(),
             ended: false,
             rewound: self.rewound,
             failed: None,

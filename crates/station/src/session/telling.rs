@@ -1,6 +1,6 @@
 //! What happens, handed out: one event after the other, or all that a step has brought about at once.
 
-use machine::Event;
+use machine::{Event, EventKind};
 
 use super::{Session, Step};
 use crate::library::Library;
@@ -91,6 +91,9 @@ impl<L: Library> Session<L> {
     pub fn next_told(&mut self) -> Option<Event> {
         let event = self.events.get(self.handed_out).copied();
         self.handed_out += 1;
+        if let Some(Event { time, kind: EventKind::Alarm(alarm), .. }) = &event {
+            self.note_alarm(alarm, *time);
+        }
         if event.is_none() {
             self.forget_told();
         }

@@ -78,6 +78,10 @@ impl Library for Texts {
         Ok(to == text.len())
     }
 
+    fn size(&self, source: SourceId) -> Option<u64> {
+        self.texts.get(source.0 as usize).map(|text| text.len() as u64)
+    }
+
     fn find_program(&mut self, wanted: Wanted) -> Result<Option<SourceId>, LibraryError> {
         Ok(match wanted {
             Wanted::Number(number, _) => {

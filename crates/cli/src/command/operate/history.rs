@@ -5,7 +5,7 @@ use std::time::SystemTime;
 use base::Diagnostic;
 use machine::{EventKind, ResetCause};
 use memory::{Change, List};
-use station::{Interrupted, Said, Session};
+use station::{Interrupted, PastAlarm, Said, Session};
 
 use crate::texts::Texts;
 
@@ -25,7 +25,7 @@ impl History {
     pub fn note(&mut self, said: &Said, session: &Session<Texts>, diagnostic: Option<&Diagnostic>) {
         let Said::Event(event) = said else { return };
         let (line, name) = (event.place.line, session.interpreter().program_name(event.place.program));
-        let place = if line > 0 { format!("{name} line {line}") } else { "at no block".to_owned() };
+        let place = if line > 0 { format!("{name} line {line}") } else { NO_BLOCK.to_owned() };
         match &event.kind {
             EventKind::Start(_) => self.write(List::Runs, &format!("{name} begun")),
             EventKind::End { .. } => self.write(List::Runs, &format!("{name} ended at line {line}")),
@@ -56,6 +56,29 @@ impl History {
     }
 }
 
+/// Where an alarm stands that no block raised.
+const NO_BLOCK: &str = "at no block";
+/// How long the date before an entry is.
+const DATE: usize = "2026-11-23 09:45:20 UTC".len();
+
+/// An alarm of the history as [`History::note`] wrote it; one that is written otherwise is a text alone.
+pub fn past_alarm(entry: &str) -> PastAlarm {
+    let (date, said) = entry.split_at_checked(DATE).filter(|(date, _)| date.ends_with(" UTC")).unwrap_or(("", entry));
+    let mut alarm = PastAlarm { date: (!date.is_empty()).then(|| date.to_owned()), ..PastAlarm::default() };
+    let parts = said.trim_start().split_once(", ").and_then(|(name, rest)| Some((name, rest.split_once(": ")?)));
+    let Some((name, (place, text))) = parts else {
+        alarm.text = said.trim_start().to_owned();
+        return alarm;
+    };
+    let block = place.rsplit_once(" line ").and_then(|(program, line)| Some((program.to_owned(), line.parse().ok()?)));
+    if block.is_none() && place != NO_BLOCK {
+        alarm.text = said.trim_start().to_owned();
+        return alarm;
+    }
+    (alarm.name, alarm.text, alarm.place) = (name.to_owned(), text.to_owned(), block);
+    alarm
+}
+
 /// Date and time of day, UTC.
 fn now() -> String {
     let seconds = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |since| since.as_secs());
@@ -80,6 +103,21 @@ fn date(seconds: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_alarm_is_read_back_as_it_was_noted() {
+        let read = |text: &str| past_alarm(&format!("{} {text}", date(1_795_427_120)));
+        let alarm = read("TRAVEL, O1 line 12: X, here: too far");
+        assert_eq!((alarm.name.as_str(), alarm.text.as_str()), ("TRAVEL", "X, here: too far"));
+        assert_eq!(
+            (alarm.date.as_deref(), alarm.place),
+            (Some("2026-11-23 09:45:20 UTC"), Some(("O1".to_owned(), 12)))
+        );
+        let alarm = read("EMERGENCY STOP, at no block: pressed");
+        assert_eq!((alarm.name.as_str(), alarm.text.as_str(), alarm.place), ("EMERGENCY STOP", "pressed", None));
+        let alarm = past_alarm("written by hand");
+        assert_eq!((alarm.text.as_str(), alarm.date), ("written by hand", None));
+    }
 
     #[test]
     fn dates_are_those_of_the_calendar() {

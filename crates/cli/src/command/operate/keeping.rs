@@ -7,13 +7,13 @@ use base::{Diagnostic, Place, SourceId, Span};
 use dialect::Control;
 use etcetera::BaseStrategy;
 use machine::MachineFile;
-use memory::{Change, Content, Kind, Program, Store};
+use memory::{Change, Content, Kind, List, Program, Store};
 use station::{
     CellKind, Configuration, Interrupted, Operator, Panel, Percents, Said, Session, Setup, TYPED, split_switch,
 };
 use syntax::Cursor;
 
-use super::history::History;
+use super::history::{History, past_alarm};
 use crate::command::memory::holder;
 use crate::failure::Failure;
 use crate::texts::Texts;
@@ -101,6 +101,9 @@ impl Keeping {
         kept.see_kept(&mut |_, value| self.cells.push(value.to_bits()));
         self.switches = kept.switches.on();
         let content = std::mem::take(&mut self.content);
+        for entry in content.history.get(&List::Alarms).into_iter().flatten() {
+            operator.session.remember_alarm(past_alarm(entry));
+        }
         let state = |name: &str| content.values.get(&(Kind::State, name.to_owned()));
         for program in &content.programs {
             let name = &program.name;
