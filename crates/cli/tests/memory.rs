@@ -116,6 +116,28 @@ fn after_a_power_failure_the_next_start_says_what_was_interrupted_and_where() {
 }
 
 #[test]
+fn the_alarm_page_shows_what_earlier_calls_have_raised() {
+    let folder = folder();
+    let memory = folder.path().join("memory");
+    fs::write(folder.path().join("part.nc"), "O1\nG01 X1.\nM30\nO2\nG91 G00 X1.\nG04 P9000\nM30\n").expect("written");
+    operate(&memory, &[], &(load(folder.path()) + "select O1\ncycle-start\nrun until alarm\nreset\nshow alarms\n"));
+    operate(&memory, &[], "select O2\ncycle-start\nrun for 2\nfault power\n");
+    let said = operate(&memory, &[], "emergency-stop\nshow alarms\n");
+    let page = said.lines().last().unwrap_or_default();
+    let alarms: Vec<_> = page.split("{\"name\":").skip(1).collect();
+    let [pressed, power, no_feed] = alarms[..] else { panic!("three alarms: {page}") };
+    // This call's own have the time of its own; those of earlier ones the date that the memory has kept.
+    assert!(pressed.starts_with("\"EMERGENCY\",\"number\":280,\"text\":\"emergency stop\",\"time\":"), "{pressed}");
+    has(power, &["\"POWER\"", "\"program\":\"O2\",\"line\":6,\"time\":0}"]);
+    has(no_feed, &["\"NO_F\",\"number\":30,", "\"program\":\"O1\",\"line\":2,\"date\":\"20", " UTC\"}"]);
+    // As many as the page shows, whatever the memory keeps.
+    let presses = "emergency-stop\nrelease\nreset\n".repeat(120);
+    operate(&memory, &[], &presses);
+    let said = operate(&memory, &[], "show alarms\n");
+    assert_eq!(said.matches("\"name\":").count(), 100, "{said}");
+}
+
+#[test]
 fn a_program_given_up_by_power_off_in_order_is_no_alarm() {
     let folder = folder();
     let memory = folder.path().join("memory");

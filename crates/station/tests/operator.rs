@@ -165,6 +165,10 @@ fn written() -> impl Strategy<Value = Action> {
         "fault power",
         "input FIN on",
         "input FIN off",
+        "origin X",
+        "origin Z = 12.5",
+        "origin all",
+        "origin Q",
     ];
     let read = lines.iter().filter_map(|line| read_action(line).ok()).collect::<Vec<_>>();
     assert!(read.len() == lines.len(), "{} of {} lines are actions", read.len(), lines.len());
@@ -212,8 +216,21 @@ fn action() -> impl Strategy<Value = Action> {
         (0u64..8).prop_map(Until::Line),
         select(vec![0.005, 0.3]).prop_map(Until::Seconds)
     ];
-    let show =
-        select(vec![Show::Modal, Show::Position, Show::Machine, Show::Alarm, Show::Feed, Show::Program, Show::State]);
+    let show = select(vec![
+        Show::Modal,
+        Show::Position,
+        Show::Machine,
+        Show::Alarm,
+        Show::Alarms,
+        Show::Feed,
+        Show::Program,
+        Show::Directory,
+        Show::Command,
+        Show::Diagnosis,
+        Show::Works,
+        Show::Variables,
+        Show::State,
+    ]);
     prop_oneof![
         2 => program.prop_map(Action::Select),
         8 => button(),

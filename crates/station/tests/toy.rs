@@ -12,7 +12,7 @@ use std::sync::Arc;
 use base::Condition;
 use dialect::{Control, ControlFiles, load_control};
 use machine::{EventKind, read_machine};
-use station::{AfterAlarm, Configuration, Session, Setup};
+use station::{AfterAlarm, Configuration, Operator, Session, Setup, Show};
 use watch::{Expect, Texts, run, select};
 
 /// What every row says of its origin, so that the tables below are short.
@@ -101,6 +101,9 @@ kind = "memory"
 text = "runs a program"
 "#;
 
+/// The one page that it has.
+const DISPLAY: &str = "[[display]]\nkey = \"P\"\nname = \"place\"\nshows = \"position.machine\"\ntext = \"-\"\n";
+
 const M_CODES: &str = r#"
 range = { machine = [0, 98], control = [99, 99], extended = [1, 0] }
 [[code]]
@@ -149,7 +152,7 @@ fn toy() -> Control {
         ("m_codes.toml", M_CODES.to_owned() + ORIGIN),
         ("addresses.toml", origin(addresses.collect())),
         ("parameters.toml", origin(parameters.collect())),
-        ("station.toml", STATION.to_owned() + ORIGIN),
+        ("station.toml", [STATION, ORIGIN, DISPLAY, ORIGIN].concat()),
         ("alarms.toml", origin(vec![alarm])),
         ("macro.toml", "limits = { brackets = 1, loops = 1, triples = 1 }\n".to_owned()),
     ];
@@ -236,4 +239,20 @@ fn what_a_cycle_needs_follows_from_its_steps() {
             "m77"
         ]
     );
+}
+
+#[test]
+fn a_page_that_it_does_not_have_is_refused() {
+    let machine = read_machine("table.toml", MACHINE).expect("it is valid");
+    let configuration = Configuration::new(Arc::new(toy()), machine, &[&Setup::default()]).expect("they fit");
+    let mut operator = Operator::new(Session::new(configuration, Texts::one("")));
+    for show in [Show::Position, Show::State, Show::Machine, Show::Feed, Show::Displays] {
+        assert!(operator.display(&show).is_ok(), "{show}");
+    }
+    for show in [Show::Command, Show::Diagnosis, Show::Alarms, Show::Offsets, Show::Work("G60".to_owned()), Show::Modal]
+    {
+        let page = show.display().expect("it is a page");
+        let why = format!("the Toy 1 has no page that shows {page}; `show displays` lists its pages");
+        assert_eq!(operator.display(&show), Err(why));
+    }
 }

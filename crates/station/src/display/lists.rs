@@ -160,7 +160,7 @@ impl<L: Library> Operator<L> {
         let mut used = vec![("programs", count(programs.len()))];
         used.extend(bytes.map(|bytes| ("bytes", Value::Number(bytes as f64))));
         let mut shown = vec![("programs", Value::List(rows)), ("used", Value::fields(used))];
-        if let Some(most) = fitting.most_programs(control) {
+        if let Some(most) = fitting.most_programs(control).filter(|&most| most < usize::MAX) {
             let free = most.saturating_sub(programs.len());
             shown.push(("free", Value::fields(vec![("programs", count(free))])));
         }

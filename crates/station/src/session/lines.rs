@@ -1,6 +1,7 @@
 //! How every line between control and machine stands, for whoever looks at it: nothing is changed by a look.
 
 use base::AXES;
+use dialect::AddressKind;
 use machine::Signal;
 
 use super::Session;
@@ -13,7 +14,8 @@ impl<L: Library> Session<L> {
         let (facts, inputs) = (self.interpreter().facts(), &self.inputs);
         let mut digits = facts.codes.digits;
         let control = &self.configuration.control;
-        if control.address(b'B').is_none() || facts.axis(b'B').is_some() {
+        let is_code = control.address(b'B').is_some_and(|address| address.kind == AddressKind::Code);
+        if !is_code || facts.axis(b'B').is_some() || !self.interpreter().fitting().options.b_function {
             // Where B is no code there are no lines for it.
             digits[3] = 0;
         }
