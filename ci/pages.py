@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Makes the programmer's pages docs/CONTROL/*.md from the tables of controls/ and the cases, and docs/operating.md from
-the station's table of actions.
+the station's table of actions, and docs/displays.md (ci/displays.py) from the cases.
 
     ci/pages.py            writes them
     ci/pages.py --check    says which would change, and exits with 1 if any would
@@ -10,6 +10,8 @@ import re
 import sys
 import tomllib
 from pathlib import Path
+
+import displays
 
 ROOT = Path(__file__).resolve().parent.parent
 SHOWN = 40  # lines of a result
@@ -221,6 +223,8 @@ system in force, or on the machine. For the relative one, bring the standard too
 stands, `origin Z = 100` this number, `origin all` zero on every axis. Nothing moves and no coordinates change. It is taken whenever the
 power is on, also while axes move; it stays until the next `origin`, a G92 that presets this display, or power-on.
 
+**Displays.** What each `show` prints, field by field: [displays.md](displays.md). `show displays` lists the pages that the control has.
+
 By itself `operate` lets time pass only with `run`, and as fast as it can. With `--realtime` time passes by the clock, a servo period
 at a time. `cyclestart operate - --realtime` is a panel: each line on standard input acts when it comes, `--displays 60` prints position,
 state, feed and modal codes 60 times a second. A line that is no action, or names a file that cannot be read, is refused and changes
@@ -302,10 +306,14 @@ def main() -> int:
                 (folder / name).write_text(wanted[name], encoding="utf-8")
             else:
                 (folder / name).unlink()
-    page, text = ROOT / "docs" / "operating.md", operating(controls)
-    if not page.is_file() or page.read_text(encoding="utf-8") != text:
+    shows = displays.printed(ROOT)
+    faults += displays.faults(shows)
+    for name, text in (("operating", operating(controls)), ("displays", displays.page(ROOT, shows, table))):
+        page = ROOT / "docs" / f"{name}.md"
+        if page.is_file() and page.read_text(encoding="utf-8") == text:
+            continue
         if check:
-            faults.append("docs/operating.md is not what the station's table says: run ci/pages.py")
+            faults.append(f"docs/{name}.md is not what the tables and cases say: run ci/pages.py")
         else:
             page.write_text(text, encoding="utf-8")
     for fault in faults:

@@ -92,13 +92,6 @@ impl<L: Library> Operator<L> {
         &self.session.configuration().control.station.modes[self.mode]
     }
 
-    /// The programs in memory: key, name as it is shown, the text it stands in, at which byte of it.
-    pub(crate) fn listed(&self) -> impl Iterator<Item = (&str, &str, SourceId, u64)> {
-        self.programs
-            .iter()
-            .map(|(key, loaded)| (key.as_str(), loaded.name.as_str(), loaded.source, loaded.head.offset))
-    }
-
     /// The names of the programs in memory.
     pub fn programs(&self) -> impl Iterator<Item = &str> {
         self.programs.keys().map(String::as_str)

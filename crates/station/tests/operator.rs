@@ -12,7 +12,7 @@ use machine::{Event, EventKind};
 use proptest::prelude::*;
 use proptest::sample::select;
 use station::{
-    Action, Configuration, OffsetColumn, Operator, OverrideSwitch, Said, Session, Setup, Show, Until, Value, Which,
+    Action, Configuration, OffsetColumn, Operator, OverrideSwitch, Said, Session, Setup, Until, Value, Which,
     read_action,
 };
 use watch::{Texts, Watch, configuration, machine};
@@ -206,6 +206,10 @@ const OF_PROGRAMS: &[&str] = &[
     "touch 5 at 10",
 ];
 
+/// What is looked at.
+const SHOWS: &str =
+    "modal position machine alarm alarms feed program directory command diagnosis works variables state";
+
 fn action() -> impl Strategy<Value = Action> {
     let program = prop_oneof![9 => (0..PROGRAMS.len()).prop_map(|n| format!("P{n}")), 1 => Just("none".to_owned())];
     let until = prop_oneof![
@@ -216,21 +220,8 @@ fn action() -> impl Strategy<Value = Action> {
         (0u64..8).prop_map(Until::Line),
         select(vec![0.005, 0.3]).prop_map(Until::Seconds)
     ];
-    let show = select(vec![
-        Show::Modal,
-        Show::Position,
-        Show::Machine,
-        Show::Alarm,
-        Show::Alarms,
-        Show::Feed,
-        Show::Program,
-        Show::Directory,
-        Show::Command,
-        Show::Diagnosis,
-        Show::Works,
-        Show::Variables,
-        Show::State,
-    ]);
+    let show =
+        select(SHOWS.split(' ').collect::<Vec<_>>()).prop_map(|what| read_action(&format!("show {what}")).expect(what));
     prop_oneof![
         2 => program.prop_map(Action::Select),
         8 => button(),
@@ -239,7 +230,7 @@ fn action() -> impl Strategy<Value = Action> {
         4 => by_hand(),
         2 => names(TYPED).prop_map(Action::Mdi),
         8 => until.prop_map(Action::Run),
-        1 => show.prop_map(Action::Show),
+        1 => show,
         2 => written(),
         1 => (0..PROGRAMS.len()).prop_map(|n| Action::Load(n.to_string(), None)),
         6 => select(OF_PROGRAMS.to_vec()).prop_map(|line| read_action(line).expect(line)),

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use base::{Point, SourceId};
 use dialect::{G92System, Meaning, ParameterKind, StateItem, VariableMeaning};
+use syntax::Cursor;
 
 use super::{Value, axes};
 use crate::kept::Cell;
@@ -137,20 +138,20 @@ impl<L: Library> Operator<L> {
     pub(super) fn directory(&self) -> Value {
         let session = &self.session;
         let (control, fitting) = (&session.configuration().control, session.interpreter().fitting());
-        let programs: Vec<_> = self.listed().collect();
+        let programs: Vec<_> = self.kept_programs().collect();
         // Where the programs of a text begin; each goes on to the next one.
         let mut heads: BTreeMap<SourceId, Vec<u64>> = BTreeMap::new();
-        programs.iter().for_each(|&(_, _, source, head)| heads.entry(source).or_default().push(head));
+        programs.iter().for_each(|(_, _, source, head)| heads.entry(*source).or_default().push(head.offset));
         let size = |source: SourceId, head: u64| {
             let next = heads.get(&source).into_iter().flatten().copied().filter(|&other| other > head).min();
             let end = next.or_else(|| session.library().size(source))?;
             Some(("bytes", Value::Number(end.saturating_sub(head) as f64)))
         };
-        let row = |&(key, name, source, head): &(&str, &str, SourceId, u64)| {
+        let row = |&(key, name, source, head): &(&str, &str, SourceId, Cursor)| {
             let number = key.strip_prefix('O').and_then(|digits| digits.parse().ok());
             let protected = number.is_some_and(|number| fitting.protects(control, number));
             let mut row = vec![("name", Value::text(name))];
-            row.extend(size(source, head));
+            row.extend(size(source, head.offset));
             row.push(("protected", Value::Truth(protected)));
             Value::fields(row)
         };

@@ -6,7 +6,7 @@ use syntax::Cursor;
 
 use super::{Loaded, Operator, ends_with, memory_key, without_ending};
 use crate::catalogue::programs_in;
-use crate::library::{LibraryError, Shelf, Wanted};
+use crate::library::{Library, LibraryError, Shelf, Wanted};
 use crate::session::Percents;
 use crate::switches::SessionSwitches;
 use crate::{Said, Session, TYPED};
@@ -31,6 +31,13 @@ pub struct Interrupted {
     pub program: String,
     /// The block; which text and program it belongs to is found by the name.
     pub place: Place,
+}
+
+impl<L: Library> Operator<L> {
+    /// The programs in memory: name, as it is shown, the text it stands in, where it begins there.
+    pub fn kept_programs(&self) -> impl Iterator<Item = (&str, &str, SourceId, Cursor)> {
+        self.programs.iter().map(|(key, loaded)| (key.as_str(), loaded.name.as_str(), loaded.source, loaded.head))
+    }
 }
 
 impl<L: Shelf> Operator<L> {
@@ -59,11 +66,6 @@ impl<L: Shelf> Operator<L> {
         if let Some(name) = &panel.selected {
             let _ = self.select(name);
         }
-    }
-
-    /// The programs in memory: name, as it is shown, the text it stands in, where it begins there.
-    pub fn kept_programs(&self) -> impl Iterator<Item = (&str, &str, SourceId, Cursor)> {
-        self.programs.iter().map(|(key, loaded)| (key.as_str(), loaded.name.as_str(), loaded.source, loaded.head))
     }
 
     /// Puts a text back into memory with the programs that stood in it, as they were listed; with none, what is found
