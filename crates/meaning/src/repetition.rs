@@ -2,6 +2,7 @@
 //!
 //! The state is all of it: a loop of a program that is called again and again begins anew each time, and ends.
 
+use base::AXES;
 use syntax::Cursor;
 
 use crate::coordinate::clear;
@@ -131,10 +132,11 @@ impl Repetition {
     }
 }
 
-/// A state without what is not known in it.
+/// A state without what is not known in it, and without what only a display shows: that decides nothing.
 fn settled(state: &State) -> State {
     let mut state = *state;
     state.machine = clear(state.machine, state.unknown.axes);
     state.displacement = clear(state.displacement, state.unknown.axes);
+    state.universal_zero = [0.0; AXES];
     state
 }

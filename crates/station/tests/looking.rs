@@ -1,5 +1,6 @@
 //! Looking changes nothing: every case of the corpus is run twice in the same strides, once with somebody who looks at any
-//! display at any moment. What happens, and what stands in every display at the end, is the same to the last bit.
+//! display at any moment. What happens, and what stands in every display at the end, is the same to the last bit. ORG changes
+//! nothing of what happens either.
 
 #![allow(clippy::expect_used, clippy::panic)]
 
@@ -61,24 +62,38 @@ fn displays() -> Vec<Show> {
     ]
 }
 
-/// The program to its end in strides that the dice give; with a second die somebody looks on the way, so often.
-fn run(session: Session<Texts>, mut strides: Dice, mut looks: Option<Dice>) -> (Operator<Texts>, Vec<Event>, u64) {
+/// Does something at a moment that the dice have chosen.
+type Does = fn(&mut Operator<Texts>, &mut Dice, &[Show]);
+
+fn looks(operator: &mut Operator<Texts>, dice: &mut Dice, shows: &[Show]) {
+    // The first ones, which a front end draws all the time, more often than the long lists.
+    let most = dice.throw(shows.len() as u64) + 1;
+    // Who looks may ask for the same block as often as he likes.
+    operator.session.library_mut().again = 0;
+    if let Some(show) = shows.get(dice.throw(most) as usize) {
+        // A page that the control does not have is refused; that changes nothing either.
+        let _ = operator.display(show);
+    }
+}
+
+fn presses_org(operator: &mut Operator<Texts>, dice: &mut Dice, _: &[Show]) {
+    let axis = dice.throw(operator.session.configuration().machine.axes.len() as u64) as usize;
+    operator.session.preset_universal(axis, [0.0, -12.345][dice.throw(2) as usize]);
+    let shown = operator.session.universal_display()[axis];
+    assert!((shown - shown.round()).abs() < 1e-6 || (shown + 12.345).abs() < 1e-6, "{shown}");
+}
+
+/// The program to its end in strides that the dice give; with a second die something is done on the way, so often.
+fn run(session: Session<Texts>, mut strides: Dice, mut hand: Option<(Dice, Does)>) -> Run {
     let mut operator = Operator::new(session);
     let shows = displays();
     let (mut events, mut starts, mut looked) = (Vec::new(), 0, 0);
     let mut look = |operator: &mut Operator<Texts>, one_in: u64| {
-        if let Some(dice) = &mut looks
+        if let Some((dice, does)) = &mut hand
             && dice.throw(one_in) == 0
         {
             looked += 1;
-            // The first ones, which a front end draws all the time, more often than the long lists.
-            let most = dice.throw(shows.len() as u64) + 1;
-            // Who looks may ask for the same block as often as he likes.
-            operator.session.library_mut().again = 0;
-            if let Some(show) = shows.get(dice.throw(most) as usize) {
-                // A page that the control does not have is refused; that changes nothing either.
-                let _ = operator.display(show);
-            }
+            does(operator, dice, &shows);
         }
     };
     operator.session.start();
@@ -125,7 +140,9 @@ fn same<T: PartialEq + std::fmt::Debug>(one: &T, other: &T) -> bool {
     one == other || format!("{one:?}") == format!("{other:?}")
 }
 
-fn compare(plain: &mut (Operator<Texts>, Vec<Event>, u64), watched: &mut (Operator<Texts>, Vec<Event>, u64)) -> String {
+type Run = (Operator<Texts>, Vec<Event>, u64);
+
+fn compare_events(plain: &Run, watched: &Run) -> String {
     let differs = plain.1.iter().zip(&watched.1).find(|(one, other)| !same(*one, *other));
     if let Some((one, other)) = differs {
         return format!("{one:?}\n    {other:?}");
@@ -133,8 +150,13 @@ fn compare(plain: &mut (Operator<Texts>, Vec<Event>, u64), watched: &mut (Operat
     if plain.1.len() != watched.1.len() {
         return format!("{} events, {} where somebody looks", plain.1.len(), watched.1.len());
     }
-    if plain.0.session.time() != watched.0.session.time() {
-        return "another time".to_owned();
+    if plain.0.session.time() == watched.0.session.time() { String::new() } else { "another time".to_owned() }
+}
+
+fn compare(plain: &mut Run, watched: &mut Run) -> String {
+    let differs = compare_events(plain, watched);
+    if !differs.is_empty() {
+        return differs;
     }
     let (plain, watched) = (shown(&mut plain.0), shown(&mut watched.0));
     let differs = plain.iter().zip(&watched).find(|(one, other)| !same(*one, *other));
@@ -143,6 +165,20 @@ fn compare(plain: &mut (Operator<Texts>, Vec<Event>, u64), watched: &mut (Operat
 
 #[test]
 fn nothing_follows_from_a_look_at_a_display() {
+    let (programs, looked) = run_all(looks, compare);
+    println!("{programs} programs, {looked} looks at displays");
+    assert!(std::env::var("ONLY").is_ok() || programs > 900 && looked > 20_000, "{programs} {looked}");
+}
+
+#[test]
+fn nothing_but_a_display_follows_from_org() {
+    let (programs, pressed) = run_all(presses_org, |plain, watched| compare_events(plain, watched));
+    println!("{programs} programs, ORG pressed {pressed} times");
+    assert!(std::env::var("ONLY").is_ok() || programs > 900 && pressed > 20_000, "{programs} {pressed}");
+}
+
+/// Every program of the corpus twice, once with a hand that does this on the way: how many, and how often it was done.
+fn run_all(does: Does, compare: fn(&mut Run, &mut Run) -> String) -> (u64, u64) {
     let corpus = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases"));
     let only = std::env::var("ONLY").ok();
     let seed = std::env::var("SEED").map_or(1, |seed| seed.parse::<u64>().expect("SEED is a number"));
@@ -158,7 +194,7 @@ fn nothing_follows_from_a_look_at_a_display() {
             let [Some(plain), Some(watched)] = sessions else { continue };
             let seed = (cases + 7919 * seed).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
             let mut plain = run(plain, Dice(seed), None);
-            let mut watched = run(watched, Dice(seed), Some(Dice(seed.rotate_left(17) | 1)));
+            let mut watched = run(watched, Dice(seed), Some((Dice(seed.rotate_left(17) | 1), does)));
             programs += 1;
             looked += watched.2;
             let differs = compare(&mut plain, &mut watched);
@@ -167,9 +203,8 @@ fn nothing_follows_from_a_look_at_a_display() {
             }
         }
     }
-    println!("{programs} programs, {looked} looks at displays");
     assert!(wrong.is_empty(), "{} of {programs} programs:\n{}", wrong.len(), wrong.join("\n"));
-    assert!(only.is_some() || programs > 900 && looked > 20_000, "{programs} {looked}");
+    (programs, looked)
 }
 
 fn sorted(folder: &Path) -> Vec<PathBuf> {
