@@ -50,15 +50,6 @@ pub enum Signal {
     Line(u8),
 }
 
-const fn letter(line: CodeLine) -> char {
-    match line {
-        CodeLine::M => 'M',
-        CodeLine::S => 'S',
-        CodeLine::T => 'T',
-        CodeLine::B => 'B',
-    }
-}
-
 impl Signal {
     /// Its name. `decoded` names the line of an M code, `axis` the letter of an axis, `line` one of the builder's.
     pub fn name(
@@ -70,9 +61,9 @@ impl Signal {
         // The second and third code of a block have lines of their own: M2, M3.
         let nth = |nth: u8| if nth == 0 { String::new() } else { (nth + 1).to_string() };
         match self {
-            Signal::Bit(line, 0, decade, weight) => format!("{}{}{weight}", letter(line), decade + 1),
-            Signal::Bit(line, n, decade, weight) => format!("{}{}-{}{weight}", letter(line), nth(n), decade + 1),
-            Signal::Strobe(line, n) => format!("{}F{}", letter(line), nth(n)),
+            Signal::Bit(line, 0, decade, weight) => format!("{}{}{weight}", line.letter(), decade + 1),
+            Signal::Bit(line, n, decade, weight) => format!("{}{}-{}{weight}", line.letter(), nth(n), decade + 1),
+            Signal::Strobe(line, n) => format!("{}F{}", line.letter(), nth(n)),
             Signal::Decoded(code) => decoded(code),
             Signal::Fin => "FIN".to_owned(),
             Signal::Den => "DEN".to_owned(),

@@ -125,6 +125,26 @@ pub enum CodeLine {
     B,
 }
 
+impl CodeLine {
+    /// The letter of its words.
+    pub const fn letter(self) -> char {
+        match self {
+            CodeLine::M => 'M',
+            CodeLine::S => 'S',
+            CodeLine::T => 'T',
+            CodeLine::B => 'B',
+        }
+    }
+
+    /// A code as it is written: `M08`, `T01`, `S1000`, `B90`.
+    pub fn word(self, code: u32) -> String {
+        match self {
+            CodeLine::M | CodeLine::T => format!("{}{code:02}", self.letter()),
+            CodeLine::S | CodeLine::B => format!("{}{code}", self.letter()),
+        }
+    }
+}
+
 /// A code that goes out to the machine.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct CodeOut {

@@ -8,7 +8,7 @@ mod lists;
 use base::{AXES, Point};
 use dialect::{GroupCodes, MMeaning, Meaning};
 use machine::Waiting;
-use meaning::{CodeLine, Corner};
+use meaning::Corner;
 
 use crate::action::Show;
 use crate::library::Library;
@@ -169,14 +169,8 @@ impl<L: Library> Operator<L> {
 
     /// What the control waits for at the machine, in words.
     fn awaited(&self, waiting: &Waiting) -> String {
-        let letter = match waiting.code.line {
-            CodeLine::M => 'M',
-            CodeLine::S => 'S',
-            CodeLine::T => 'T',
-            CodeLine::B => 'B',
-        };
         let state = if waiting.on { "FIN" } else { "FIN off" };
-        let code = format!("{letter}{:02}", waiting.code.code);
+        let code = waiting.code.line.word(waiting.code.code);
         match self.session.logic_waiting(waiting) {
             Some(step) => format!("{state} after {code}: {step}"),
             None => format!("{state} after {code}"),

@@ -31,6 +31,7 @@ pub use fault::Fault;
 pub use kept::{Cell, CellKind};
 pub use library::{Library, LibraryError, Shelf, Wanted};
 pub use operator::{Interrupted, Operator, Panel, Said};
+pub use program_text::number_of;
 pub use script::{ScriptError, ScriptLine, read_action, read_script, split_offset, split_parameter, without_comment};
 pub use session::{AfterAlarm, Asked, HandMove, PastAlarm, Percents, RestartPlan, Session, Step, TYPED, Way};
 pub use setup::{OffsetColumn, Setup, read_setup};

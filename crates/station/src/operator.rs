@@ -4,6 +4,7 @@ mod by_hand;
 mod editing;
 mod kept;
 mod lasting;
+mod loading;
 mod restart;
 mod search;
 mod table;
@@ -11,18 +12,17 @@ mod tape;
 mod typing;
 mod write;
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, VecDeque};
 
-use base::{Condition, SourceId};
+use base::SourceId;
 use dialect::{FileNames, Key, ModeRow, VariableMeaning};
 use machine::{Event, ResetCause};
 use syntax::Cursor;
 
 use crate::action::Action;
-use crate::catalogue::programs_in;
 use crate::display::Value;
 use crate::fault::Fault;
-use crate::library::{Library, LibraryError, Shelf, Wanted};
+use crate::library::{Library, LibraryError, Shelf};
 use crate::memory;
 use crate::session::Session;
 pub use kept::{Interrupted, Panel};
@@ -349,91 +349,9 @@ impl<L: Shelf> Operator<L> {
         Ok(())
     }
 
-    /// Loads a file into memory: every program that it holds.
-    fn load(&mut self, file: &str, name: Option<&str>) -> Result<(), LibraryError> {
-        let grammar = self.session.configuration().control.grammar;
-        let files = self.files().cloned();
-        let interpreter = self.session.interpreter();
-        let codes = interpreter.fitting().tape_codes(interpreter.control());
-        let shelf = self.session.library_mut();
-        let (source, own_name) = shelf.open_file(file)?;
-        if let Some(files) = files {
-            return self.load_file(name.unwrap_or(file), (source, name.unwrap_or(&own_name)), &files);
-        }
-        let shelf = self.session.library_mut();
-        let found = programs_in(shelf, source, &grammar, codes)?;
-        let mut names = Vec::new();
-        // A name given by hand, or the file's where no O word stands in it, is that of the text's first program.
-        match name {
-            Some(name) => names.push((normal_name(name), Cursor::HEAD)),
-            None if found.is_empty() => names.push((normal_name(&own_name), Cursor::HEAD)),
-            None => {}
-        }
-        names.extend(found.into_iter().map(|(number, head)| (format!("O{number}"), head)));
-        if let Some((condition, value)) = self.load_refusal(&names) {
-            self.session.raise_at_panel(condition, [value, 0.0, 0.0]);
-            return Ok(());
-        }
-        let mut reloaded = false;
-        for (name, head) in names.into_iter().rev() {
-            if let Some(number) = name.strip_prefix('O').and_then(|digits| digits.parse().ok()) {
-                self.session.library_mut().keep_in_memory(Wanted::Number(number, ""), source);
-            }
-            reloaded |= self.selected.as_ref() == Some(&name);
-            self.programs.insert(name.clone(), Loaded { name, source, head, called: None });
-        }
-        self.take_new_texts(reloaded);
-        Ok(())
-    }
-
     /// The endings of files, where a program is a file.
     fn files(&self) -> Option<&FileNames> {
         self.session.configuration().control.files.as_ref()
-    }
-
-    /// Loads a file that is one program, known by its name without case.
-    fn load_file(
-        &mut self,
-        file: &str,
-        (source, shown): (SourceId, &str),
-        files: &FileNames,
-    ) -> Result<(), LibraryError> {
-        let shown = without_ending(shown, files);
-        let key = shown.to_ascii_uppercase();
-        let names = [(key.clone(), Cursor::HEAD)];
-        if let Some((condition, value)) = self.load_refusal(&names) {
-            self.session.raise_at_panel(condition, [value, 0.0, 0.0]);
-            return Ok(());
-        }
-        let large = files.large.as_ref().filter(|large| ends_with(file, large));
-        let called = format!("{key}.{}", large.unwrap_or(&files.ending).to_ascii_uppercase());
-        self.session.library_mut().keep_in_memory(Wanted::File(&called), source);
-        let reloaded = self.selected.as_ref() == Some(&key);
-        self.programs.insert(key, Loaded { name: shown.to_owned(), source, head: Cursor::HEAD, called: Some(called) });
-        self.take_new_texts(reloaded);
-        Ok(())
-    }
-
-    /// What was remembered of programs is worth nothing; the one that was selected may have been replaced.
-    fn take_new_texts(&mut self, reloaded: bool) {
-        self.session.interpreter_mut().forget_texts();
-        if let (true, Some(name)) = (reloaded, self.selected.clone()) {
-            let _ = self.select(&name);
-        }
-    }
-
-    /// Why memory does not take these programs, if it does not, and the number that says so.
-    fn load_refusal(&self, names: &[(String, Cursor)]) -> Option<(Condition, f64)> {
-        let interpreter = self.session.interpreter();
-        let (control, fitting) = (interpreter.control(), interpreter.fitting());
-        let numbers = names.iter().filter_map(|(name, _)| name.strip_prefix('O')?.parse::<u32>().ok());
-        if let Some(number) = numbers.into_iter().find(|&number| fitting.protects(control, number)) {
-            return Some((Condition::ProgramProtected, f64::from(number)));
-        }
-        let more: BTreeSet<&str> =
-            names.iter().map(|(name, _)| name.as_str()).filter(|name| !self.programs.contains_key(*name)).collect();
-        let most = fitting.most_programs(control)?;
-        (self.programs.len() + more.len() > most).then_some((Condition::MemoryFull, most as f64))
     }
 
     /// Hands out what an action has brought about at once, without letting time pass.

@@ -147,6 +147,11 @@ fn put_parts(block: &Block, parts: &mut Vec<Part>) {
     }
 }
 
+/// The number of a program that is known by one: `O1234`.
+pub fn number_of(name: &str) -> Option<u32> {
+    name.strip_prefix('O')?.parse().ok()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -38,12 +38,7 @@ pub fn check_sequences(table: &Table, sequences: &[Placed], lines: &[LogicLine],
 }
 
 fn code_name(line: CodeLine, code: Option<u32>) -> String {
-    let letter = match line {
-        CodeLine::M => 'M',
-        CodeLine::S => 'S',
-        CodeLine::T => 'T',
-        CodeLine::B => 'B',
-    };
+    let letter = line.letter();
     code.map_or(letter.to_string(), |code| format!("{letter}{code:02}"))
 }
 

@@ -123,15 +123,9 @@ fn end(axis: &MachineAxis, at: f64) -> String {
 /// A code as it goes out.
 pub fn code_text(control: &Control, code: CodeOut) -> String {
     let digits = usize::from(code.digits);
-    let (letter, number) = match code.line {
-        CodeLine::M => ('M', format!("{:02}", code.code)),
-        CodeLine::S => ('S', code.code.to_string()),
-        CodeLine::T => ('T', format!("{:02}", code.code)),
-        CodeLine::B => ('B', code.code.to_string()),
-    };
     let row = control.m_code(code.code).filter(|_| code.line == CodeLine::M);
     let decoded = row.and_then(|row| row.decoded.as_ref()).map_or(String::new(), |line| format!(" and line {line}"));
-    format!("{letter}{number}  (digits {:0digits$}{decoded})", code.code)
+    format!("{}  (digits {:0digits$}{decoded})", code.line.word(code.code), code.code)
 }
 
 /// A value that was written, as the trace has it.

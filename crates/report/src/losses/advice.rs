@@ -26,7 +26,7 @@ impl Losses {
     }
 
     fn what(&self, cause: Cause, detail: &Detail) -> String {
-        let code = detail.code.map_or_else(|| "a code".to_owned(), code_name);
+        let code = detail.code.map_or_else(|| "a code".to_owned(), |code| code.line.word(code.code));
         match cause {
             Cause::ExactStop => format!("exact stop {}", self.exact(detail)),
             Cause::Code => format!("the axes stand for {code}"),
@@ -81,7 +81,7 @@ impl Losses {
                 )
             }
             Cause::Code => {
-                let code = detail.code.map_or_else(|| "the code".to_owned(), code_name);
+                let code = detail.code.map_or_else(|| "the code".to_owned(), |code| code.line.word(code.code));
                 format!(
                     "move {code} to a block where the axes stand in any case: beside a rapid move or the tool change"
                 )
@@ -146,7 +146,7 @@ impl Losses {
                 let Some(code) = detail.code else { return String::new() };
                 let file = format!(
                     "by the machine's file {} takes {} ([functions] time, key {}; fin_time where that has none): measure it at the machine",
-                    code_name(code),
+                    code.line.word(code.code),
                     period(self.times.of(code.line, code.code).0),
                     code_key(code)
                 );
@@ -197,26 +197,10 @@ fn angle(cosine: f64) -> String {
     if degrees < 9.95 { format!("{degrees:.1}°") } else { format!("{degrees:.0}°") }
 }
 
-fn letter(line: CodeLine) -> char {
-    match line {
-        CodeLine::M => 'M',
-        CodeLine::S => 'S',
-        CodeLine::T => 'T',
-        CodeLine::B => 'B',
-    }
-}
-
-fn code_name(code: CodeOut) -> String {
-    match code.line {
-        CodeLine::M | CodeLine::T => format!("{}{:02}", letter(code.line), code.code),
-        CodeLine::S | CodeLine::B => format!("{}{}", letter(code.line), code.code),
-    }
-}
-
 /// The key of its time in the machine's file.
 fn code_key(code: CodeOut) -> String {
     match code.line {
-        CodeLine::S | CodeLine::T => letter(code.line).to_ascii_lowercase().to_string(),
-        CodeLine::M | CodeLine::B => format!("{}{}", letter(code.line).to_ascii_lowercase(), code.code),
+        CodeLine::S | CodeLine::T => code.line.letter().to_ascii_lowercase().to_string(),
+        CodeLine::M | CodeLine::B => format!("{}{}", code.line.letter().to_ascii_lowercase(), code.code),
     }
 }

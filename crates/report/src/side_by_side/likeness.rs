@@ -6,7 +6,7 @@
 use base::{AXES, Point};
 use dialect::Control;
 use machine::{Event, EventKind, MachineAxis};
-use meaning::{CodeLine, Dwell, SetValue};
+use meaning::{Dwell, SetValue};
 
 use crate::explain::set_text;
 use crate::trace::{end_name, stop_name};
@@ -175,12 +175,7 @@ impl<'c> Likeness<'c> {
         match kind {
             EventKind::Dwell(Dwell::Seconds(seconds)) => format!("dwell {} s", number(*seconds)),
             EventKind::Dwell(Dwell::Revolutions { turns, .. }) => format!("dwell {} turns", number(*turns)),
-            EventKind::Code(code) => match code.line {
-                CodeLine::M => format!("M{:02}", code.code),
-                CodeLine::S => format!("S{}", code.code),
-                CodeLine::T => format!("T{:02}", code.code),
-                CodeLine::B => format!("B{}", code.code),
-            },
+            EventKind::Code(code) => code.line.word(code.code),
             EventKind::Stop(cause) => format!("stop {}", stop_name(*cause)),
             EventKind::End { kind, .. } => format!("end {}", end_name(*kind)),
             EventKind::Alarm(alarm) => format!("alarm {}", self.sides[side].control.alarm_name(alarm).name),

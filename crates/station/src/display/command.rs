@@ -2,7 +2,7 @@
 //! because somebody looks.
 
 use base::SourceId;
-use meaning::{CodeLine, Command, WINDOW};
+use meaning::{Command, WINDOW};
 use tape::{Codes, Format, IGNORED, UNREADABLE, recognise};
 
 use super::{Value, axes, modal};
@@ -48,13 +48,7 @@ fn block<L: Library>(session: &mut Session<L>, command: &Command) -> Value {
         ("d", whole(after.d)),
     ]);
     if !command.sent().is_empty() {
-        let letter = |line| match line {
-            CodeLine::M => 'M',
-            CodeLine::S => 'S',
-            CodeLine::T => 'T',
-            CodeLine::B => 'B',
-        };
-        let code = |code: &meaning::CodeOut| Value::Text(format!("{}{:02}", letter(code.line), code.code));
+        let code = |code: &meaning::CodeOut| Value::Text(code.line.word(code.code));
         shown.push(("codes", Value::List(command.sent().iter().map(code).collect())));
     }
     if command.moves() {

@@ -11,6 +11,7 @@ use crate::kept::Cell;
 use crate::library::Library;
 use crate::memory;
 use crate::operator::Operator;
+use crate::program_text::number_of;
 use crate::session::Session;
 
 /// Every offset, mm: its number and its value, or its length and its radius where they have columns of their own.
@@ -148,7 +149,7 @@ impl<L: Library> Operator<L> {
             Some(("bytes", Value::Number(end.saturating_sub(head) as f64)))
         };
         let row = |&(key, name, source, head): &(&str, &str, SourceId, Cursor)| {
-            let number = key.strip_prefix('O').and_then(|digits| digits.parse().ok());
+            let number = number_of(key);
             let protected = number.is_some_and(|number| fitting.protects(control, number));
             let mut row = vec![("name", Value::text(name))];
             row.extend(size(source, head.offset));

@@ -11,7 +11,7 @@ use crate::catalogue::programs_in;
 use crate::display::Value;
 use crate::edit::Edit;
 use crate::library::{Library, LibraryError, Shelf, Wanted};
-use crate::program_text::{Part, ProgramText, blocks_of_text, text_of};
+use crate::program_text::{Part, ProgramText, blocks_of_text, number_of, text_of};
 
 /// Lines of a page of the edit display.
 const PAGE: usize = 20;
@@ -279,11 +279,6 @@ impl<L: Library> Operator<L> {
         let lines = program.lines(first, PAGE).into_iter().map(Value::Text).collect();
         Some([("cursor".to_owned(), cursor), ("text".to_owned(), Value::List(lines))])
     }
-}
-
-/// The number of a program that is known by one.
-fn number_of(key: &str) -> Option<u32> {
-    key.strip_prefix('O')?.parse().ok()
 }
 
 /// The next part behind the cursor that is this word, or has this address.

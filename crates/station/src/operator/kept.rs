@@ -1,12 +1,11 @@
 //! What the station remembers beside the control's cells: programs, the selected one, switches, what was interrupted.
 
 use base::{Place, SourceId, Span};
-use dialect::FileNames;
 use syntax::Cursor;
 
-use super::{Loaded, Operator, ends_with, memory_key, without_ending};
-use crate::catalogue::programs_in;
+use super::{Operator, memory_key};
 use crate::library::{Library, LibraryError, Shelf, Wanted};
+use crate::program_text::number_of;
 use crate::session::Percents;
 use crate::switches::SessionSwitches;
 use crate::{Said, Session, TYPED};
@@ -68,55 +67,6 @@ impl<L: Shelf> Operator<L> {
         }
     }
 
-    /// Puts a text back into memory with the programs that stood in it, as they were listed; with none, what is found
-    /// there. On a control whose programs are files it is the program of that file.
-    ///
-    /// # Errors
-    /// The text cannot be read.
-    pub fn put_back(
-        &mut self,
-        name: &str,
-        source: SourceId,
-        programs: Vec<(String, Cursor)>,
-    ) -> Result<(), LibraryError> {
-        if let Some(files) = self.files().cloned() {
-            self.put_file_back(name, source, &files);
-            return Ok(());
-        }
-        let programs = if programs.is_empty() { self.found_in(name, source)? } else { programs };
-        for (name, head) in programs {
-            let name = memory_key(&name, None);
-            if let Some(number) = name.strip_prefix('O').and_then(|digits| digits.parse().ok()) {
-                self.session.library_mut().keep_in_memory(Wanted::Number(number, ""), source);
-            }
-            self.programs.insert(name.clone(), Loaded { name, source, head, called: None });
-        }
-        Ok(())
-    }
-
-    /// The programs of a text, as loading finds them; the text's own name if there are none.
-    fn found_in(&mut self, name: &str, source: SourceId) -> Result<Vec<(String, Cursor)>, LibraryError> {
-        let interpreter = self.session.interpreter();
-        let codes = interpreter.fitting().tape_codes(interpreter.control());
-        let grammar = interpreter.control().grammar;
-        let found = programs_in(self.session.library_mut(), source, &grammar, codes)?;
-        let mut names: Vec<_> = found.into_iter().map(|(number, head)| (format!("O{number}"), head)).collect();
-        let name = memory_key(name, None);
-        if !names.iter().any(|(found, _)| *found == name) {
-            names.push((name, Cursor::HEAD));
-        }
-        Ok(names)
-    }
-
-    fn put_file_back(&mut self, file: &str, source: SourceId, files: &FileNames) {
-        let shown = without_ending(file, files).to_owned();
-        let key = shown.to_ascii_uppercase();
-        let large = files.large.as_ref().filter(|large| ends_with(file, large));
-        let called = format!("{key}.{}", large.unwrap_or(&files.ending).to_ascii_uppercase());
-        self.session.library_mut().keep_in_memory(Wanted::File(&called), source);
-        self.programs.insert(key, Loaded { name: shown, source, head: Cursor::HEAD, called: Some(called) });
-    }
-
     /// The program at whose block the power would interrupt it, or has interrupted it.
     pub fn at_work(&self) -> Option<(&str, Place)> {
         let place = self.session.at_work()?;
@@ -137,7 +87,7 @@ impl<L: Shelf> Operator<L> {
         let source = match self.programs.get(&memory_key(name, self.files())) {
             _ if typed => Some(TYPED),
             Some(loaded) => Some(loaded.source),
-            None => match name.strip_prefix('O').and_then(|digits| digits.parse().ok()) {
+            None => match number_of(name) {
                 Some(number) => self.session.library_mut().find_program(Wanted::Number(number, ""))?,
                 None => None,
             },

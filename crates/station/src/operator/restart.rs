@@ -113,16 +113,7 @@ impl<L: Shelf> Operator<L> {
 }
 
 fn code((line, code): &(CodeLine, u32)) -> String {
-    let letter = match line {
-        CodeLine::M => 'M',
-        CodeLine::S => 'S',
-        CodeLine::T => 'T',
-        CodeLine::B => 'B',
-    };
-    match line {
-        CodeLine::S => format!("{letter}{code}"),
-        _ => format!("{letter}{code:02}"),
-    }
+    line.word(*code)
 }
 
 /// The restart as it is shown before it is confirmed.

@@ -7,7 +7,7 @@ use syntax::Cursor;
 use super::{Begins, Operator, Said, memory_key};
 use crate::display::Value;
 use crate::library::{LibraryError, Shelf};
-use crate::program_text::{ProgramText, blocks_of_text, text_of};
+use crate::program_text::{ProgramText, blocks_of_text, number_of, text_of};
 use crate::session::Session;
 
 /// A block of a program: its line and its words as one text.
@@ -107,7 +107,7 @@ impl<L: Shelf> Operator<L> {
     /// The blocks of a program that say anything.
     fn blocks(&mut self, source: SourceId, key: &str) -> Result<Vec<Line>, LibraryError> {
         let (grammar, text) = self.text(source)?;
-        let number = key.strip_prefix('O').and_then(|digits| digits.parse().ok()).filter(|_| self.files().is_none());
+        let number = number_of(key).filter(|_| self.files().is_none());
         let found = number.and_then(|number| ProgramText::of(text.clone(), Some(number), &grammar));
         let Some(program) = found.or_else(|| ProgramText::of(text, None, &grammar)) else { return Ok(Vec::new()) };
         let mut blocks: Vec<(usize, Line)> = Vec::new();

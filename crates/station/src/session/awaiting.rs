@@ -4,7 +4,7 @@
 
 use base::{Alarm, Condition, Place};
 use machine::{DecodedLine, Machine, Signal, Trouble, Wait, Waiting};
-use meaning::{Close, CodeLine};
+use meaning::Close;
 use path::{Shape, Shaped};
 
 use super::Session;
@@ -25,16 +25,6 @@ pub(super) fn decoded_lines(configuration: &Configuration, inputs: &Inputs) -> V
         Some(DecodedLine { code: u32::from(row.code), eop, rwd })
     })
     .collect()
-}
-
-/// The letter of a code.
-pub(super) const fn letter(line: CodeLine) -> u8 {
-    match line {
-        CodeLine::M => b'M',
-        CodeLine::S => b'S',
-        CodeLine::T => b'T',
-        CodeLine::B => b'B',
-    }
 }
 
 impl<L: Library> Session<L> {
@@ -220,7 +210,7 @@ impl<L: Library> Session<L> {
     fn never_comes(&self, waiting: &Waiting) -> Alarm {
         match self.machine.logic_late(waiting.code) {
             Some(wait) => {
-                let values = [f64::from(letter(waiting.code.line)), f64::from(waiting.code.code), wait];
+                let values = [f64::from(u32::from(waiting.code.line.letter())), f64::from(waiting.code.code), wait];
                 Alarm::new(Condition::LogicTimeOut, waiting.place, waiting.place.block).with(values)
             }
             None if waiting.on => self.given_up(Trouble::Missing, waiting),
@@ -235,7 +225,7 @@ impl<L: Library> Session<L> {
             Trouble::Stuck => Condition::FinStuck,
         };
         let time_out = self.configuration.machine.handshake.time_out.0;
-        let values = [f64::from(letter(waiting.code.line)), f64::from(waiting.code.code), time_out];
+        let values = [f64::from(u32::from(waiting.code.line.letter())), f64::from(waiting.code.code), time_out];
         Alarm::new(condition, waiting.place, waiting.place.block).with(values)
     }
 }

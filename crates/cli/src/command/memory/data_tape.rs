@@ -10,7 +10,7 @@ use dialect::{Control, MMeaning, Meaning};
 use machine::EventKind;
 use memory::{Change, Content, Kind};
 use report::{Format, render};
-use station::{Operator, Session, Step, programs_in};
+use station::{Operator, Session, Step, number_of, programs_in};
 use syntax::Cursor;
 
 use crate::arguments::{ExportArguments, ImportArguments};
@@ -135,12 +135,11 @@ fn numbered(
     let found = programs_in(texts, source, &control.grammar, None).map_err(Failure::call)?;
     let key = (Kind::State, format!("programs of {}", program.name));
     let listed = content.values.get(&key).map_or_else(Vec::new, |text| Keeping::heads_of(text));
-    let number = |name: &str| name.strip_prefix('O').and_then(|digits| digits.parse::<u32>().ok());
     let listed: Vec<_> = if listed.is_empty() {
-        let own = number(&program.name).filter(|own| !found.iter().any(|(other, _)| other == own));
+        let own = number_of(&program.name).filter(|own| !found.iter().any(|(other, _)| other == own));
         found.iter().map(|(number, head)| (*number, *head)).chain(own.map(|own| (own, Cursor::HEAD))).collect()
     } else {
-        listed.into_iter().filter_map(|(name, head)| Some((number(&name)?, head))).collect()
+        listed.into_iter().filter_map(|(name, head)| Some((number_of(&name)?, head))).collect()
     };
     let text = String::from_utf8_lossy(&program.text).into_owned();
     let mut programs = Vec::new();

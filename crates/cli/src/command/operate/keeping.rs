@@ -295,7 +295,7 @@ fn names_of_texts(operator: &Operator<Texts>) -> BTreeMap<SourceId, String> {
 
 fn is_protected(operator: &Operator<Texts>, name: &str) -> bool {
     let interpreter = operator.session.interpreter();
-    let number = name.strip_prefix('O').and_then(|digits| digits.parse().ok());
+    let number = station::number_of(name);
     number.is_some_and(|number| interpreter.fitting().protects(interpreter.control(), number))
 }
 
