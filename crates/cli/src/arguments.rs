@@ -2,15 +2,23 @@
 
 mod diff;
 mod memory;
+mod operate;
 mod plot;
+mod setting;
+mod tape;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use diff::{DiffArguments, DiffFormat};
 pub use memory::{ExportArguments, ExportForm, HistoryArguments, ImportArguments, MemoryCommand};
+pub use operate::OperateArguments;
 pub use plot::{LayerArgument, PlotArguments, ViewArgument};
+pub use setting::SettingArguments;
+pub use tape::{
+    CodeArgument, OnOff, PunchCodeArgument, TapeArguments, TapeCommand, TapePunchArguments, TapeReadArguments,
+};
 
 /// Executes part programs exactly as the machining-centre controls they were written for would.
 #[derive(Parser, Debug)]
@@ -89,60 +97,6 @@ pub enum Command {
     /// List the controls, or print one control's tables
     #[command(after_help = "Example:\n  cyclestart controls yasnac-mx1")]
     Controls(ControlsArguments),
-}
-
-/// The control, its machine, and what is set on both.
-#[derive(Args, Debug, Clone)]
-pub struct SettingArguments {
-    /// The control
-    #[arg(long, value_name = "NAME", default_value = "yasnac-mx1")]
-    pub control: String,
-    /// Take the controls' tables from this folder instead of the built-in ones
-    #[arg(long, value_name = "DIR")]
-    pub controls: Option<PathBuf>,
-    /// The machine builder's file, or the name of a built-in machine [default: the control's stock machine]
-    #[arg(long, value_name = "NAME|FILE.toml")]
-    pub machine: Option<String>,
-    /// Offsets, work coordinates, parameters, switches, start position
-    #[arg(long, value_name = "FILE.toml")]
-    pub setup: Option<PathBuf>,
-    /// One offset in mm, such as 31=10.0
-    #[arg(long, value_name = "N=MM", allow_hyphen_values = true)]
-    pub offset: Vec<String>,
-    /// One work coordinate system in machine mm, such as G54=X100,Y50,Z-20
-    #[arg(long, value_name = "Gnn=X…,Y…")]
-    pub work: Vec<String>,
-    /// One parameter or one bit of it, such as 6005=0b100 or 6005.2=1
-    #[arg(long, value_name = "NAME=VALUE")]
-    pub parameter: Vec<String>,
-    /// A switch that is on: optional-stop, block-delete[=n], single-block, dry-run, machine-lock, display-lock, aux-lock, z-cancel, manual-absolute
-    #[arg(long, value_name = "NAME")]
-    pub switch: Vec<String>,
-    /// Where subprograms are looked up after the file itself and its own folder
-    #[arg(long, value_name = "DIR")]
-    pub library: Option<PathBuf>,
-    /// An option of the control, fitted or not
-    #[arg(long, value_name = "NAME=on|off")]
-    pub option: Vec<String>,
-    /// A behaviour on which the maker's text is silent
-    #[arg(long, value_name = "NAME=VALUE")]
-    pub policy: Vec<String>,
-    /// Run the program this many times in a row, as for so many pieces
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
-    pub repeat: u64,
-    /// Jumps and macro statements allowed without motion, dwell or stop before the alarm ENDLESS_LOOP
-    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
-    pub loop_limit: u64,
-}
-
-impl SettingArguments {
-    /// The files that a command with this program and set-up reads.
-    pub fn files<'a>(&'a self, program: &'a str) -> Vec<&'a Path> {
-        [Some(Path::new(program)), self.setup.as_deref(), self.machine.as_deref().map(Path::new)]
-            .into_iter()
-            .flatten()
-            .collect()
-    }
 }
 
 /// `run`
@@ -232,131 +186,6 @@ pub struct TraceArguments {
     pub setting: SettingArguments,
 }
 
-/// `operate`
-#[derive(Args, Debug)]
-pub struct OperateArguments {
-    /// The operator's script, - for standard input
-    pub script: String,
-    /// The machine's answers to codes are events too
-    #[arg(long)]
-    pub io: bool,
-    /// Keep the control's memory in this folder from one call to the next, without DIR in the user's data folder; without
-    /// the option memory begins empty and is forgotten
-    #[arg(long, value_name = "DIR")]
-    pub memory: Option<Option<PathBuf>>,
-    /// Time passes by the clock; lines on standard input act as they come
-    #[arg(long)]
-    pub realtime: bool,
-    /// With --realtime: print the displays (position, state, feed, modal) so many times a second
-    #[arg(long, value_name = "HZ", requires = "realtime", value_parser = frequency)]
-    pub displays: Option<f64>,
-    /// The control and its set-up.
-    #[command(flatten)]
-    pub setting: SettingArguments,
-}
-
-/// `tape`
-#[derive(Subcommand, Debug)]
-pub enum TapeCommand {
-    /// Read the image of a tape to text; name every damaged character
-    #[command(
-        after_help = "Exit codes: 0 done; 1 the tape is damaged (the text is written all the same); 2 the call is wrong.\n\n\
-                            Example:\n  cyclestart tape read part.eia -o part.nc"
-    )]
-    Read(TapeReadArguments),
-    /// Punch a text: write the image of its tape, one byte a row
-    #[command(after_help = "Example:\n  cyclestart tape punch part.nc --code eia -o part.eia --draw")]
-    Punch(TapePunchArguments),
-}
-
-/// The codes of a tape that is read.
-#[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CodeArgument {
-    /// By the first end of block.
-    Auto,
-    /// ISO 840.
-    Iso,
-    /// EIA RS-244.
-    Eia,
-}
-
-/// The codes in which tapes are punched.
-#[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PunchCodeArgument {
-    /// ISO 840.
-    Iso,
-    /// EIA RS-244.
-    Eia,
-}
-
-/// On or off.
-#[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
-pub enum OnOff {
-    On,
-    Off,
-}
-
-/// Whose tapes, and how they are shown.
-#[derive(Args, Debug)]
-pub struct TapeArguments {
-    /// Draw the tape in characters: a line a row, holes, character, what is wrong
-    #[arg(long)]
-    pub draw: bool,
-    /// Draw the tape true to scale
-    #[arg(long, value_name = "OUT.svg")]
-    pub svg: Option<PathBuf>,
-    /// The control whose tape it is
-    #[arg(long, value_name = "NAME", default_value = "yasnac-mx1")]
-    pub control: String,
-    /// Take the controls' tables from this folder instead of the built-in ones
-    #[arg(long, value_name = "DIR")]
-    pub controls: Option<PathBuf>,
-    /// One parameter, such as "eia code of equals sign=0b00001101"
-    #[arg(long, value_name = "NAME=VALUE")]
-    pub parameter: Vec<String>,
-}
-
-/// `tape read`
-#[derive(Args, Debug)]
-pub struct TapeReadArguments {
-    /// The image of the tape, one byte a row, - for standard input
-    pub file: String,
-    /// The text to write [default: standard output, unless the tape is drawn]
-    #[arg(short, long, value_name = "OUT")]
-    pub output: Option<PathBuf>,
-    /// The code of the tape
-    #[arg(long, value_enum, default_value = "auto")]
-    pub code: CodeArgument,
-    /// The check of block parity [default: as the control's parameter says]
-    #[arg(long, value_enum)]
-    pub tv: Option<OnOff>,
-    /// Whose tape, and how it is shown.
-    #[command(flatten)]
-    pub tape: TapeArguments,
-}
-
-/// `tape punch`
-#[derive(Args, Debug)]
-pub struct TapePunchArguments {
-    /// The text, - for standard input
-    pub file: String,
-    /// The image to write
-    #[arg(short, long, value_name = "OUT")]
-    pub output: Option<PathBuf>,
-    /// The code to punch
-    #[arg(long, value_enum)]
-    pub code: PunchCodeArgument,
-    /// A blank makes blocks with an odd number of characters even, for the check of block parity
-    #[arg(long, value_enum, default_value = "off")]
-    pub tv: OnOff,
-    /// Rows of blank tape before and behind the program; ten are an inch
-    #[arg(long, value_name = "ROWS", default_value_t = 100, value_parser = clap::value_parser!(u32).range(..=100_000))]
-    pub leader: u32,
-    /// Whose tape, and how it is shown.
-    #[command(flatten)]
-    pub tape: TapeArguments,
-}
-
 /// How an explanation is printed.
 #[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExplainFormat {
@@ -444,12 +273,4 @@ pub struct ControlsArguments {
     /// Take the controls' tables from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub controls: Option<PathBuf>,
-}
-
-/// So many times a second.
-fn frequency(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(hz) if hz > 0.0 && hz <= 1000.0 => Ok(hz),
-        _ => Err("a number above 0, at most 1000".to_owned()),
-    }
 }

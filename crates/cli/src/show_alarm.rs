@@ -3,9 +3,10 @@
 use base::{Alarm, Diagnostic, Place, Severity, Span};
 use dialect::Control;
 use machine::MachineFile;
-use report::Excerpt;
+use report::{Excerpt, Format, render};
 use warnings::Finding;
 
+use crate::output::{colour_err, say};
 use crate::texts::Texts;
 
 /// Longest stretch of a line that is read to show it.
@@ -26,6 +27,13 @@ pub fn show_typed_alarm(
 pub fn show_alarm(alarm: &Alarm, control: &Control, machine: &MachineFile, texts: &mut Texts) -> (Diagnostic, Excerpt) {
     let bytes = line_of(&alarm.place, alarm.span, texts);
     show(texts.name(alarm.place.source), alarm, control, machine, &bytes)
+}
+
+/// Says the alarm on standard error, with the line it stands on: both are given back.
+pub fn tell_alarm(alarm: &Alarm, control: &Control, machine: &MachineFile, texts: &mut Texts) -> (Diagnostic, Excerpt) {
+    let (diagnostic, excerpt) = show_alarm(alarm, control, machine, texts);
+    say(&render(&diagnostic, &excerpt, Format::Text { colour: colour_err() }));
+    (diagnostic, excerpt)
 }
 
 /// `bytes` begin with the alarm's line.

@@ -136,6 +136,11 @@ impl CodeLine {
         }
     }
 
+    /// Its place where something is kept for each line: M, S, T, B.
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
     /// A code as it is written: `M08`, `T01`, `S1000`, `B90`.
     pub fn word(self, code: u32) -> String {
         match self {

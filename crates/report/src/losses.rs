@@ -147,7 +147,7 @@ impl Losses {
             EventKind::Code(code) => {
                 let stops = code.line == CodeLine::M && self.stops.contains(&code.code);
                 self.end(Next::Because(if stops { Cause::Standing } else { Cause::Code }, Some(*code)));
-                self.sent[line_index(code.line)] = Some(*code);
+                self.sent[code.line.index()] = Some(*code);
             }
             EventKind::Waited(seconds) => {
                 // Of several codes the slowest is waited for last, and it is the others' answer too.
@@ -155,7 +155,7 @@ impl Losses {
                 self.lose(place, Cause::Waiting, seconds.0, Detail { code, ..Detail::default() }, false);
             }
             EventKind::Finished(line) => {
-                let sent = self.sent[line_index(*line)].take();
+                let sent = self.sent[line.index()].take();
                 self.top.name(place, sent);
             }
             EventKind::Stop(StopCause::Program(_)) | EventKind::End { .. } | EventKind::Alarm(_) => {
@@ -382,15 +382,6 @@ fn program_of<L: Library>(session: &Session<L>, main: Option<ProgramId>, program
 fn exact_code<L: Library>(session: &Session<L>) -> u8 {
     let one_shot = session.interpreter().executing().and_then(|command| command.wording.one_shot);
     u8::from(one_shot != Some(Meaning::ExactStop))
-}
-
-fn line_index(line: CodeLine) -> usize {
-    match line {
-        CodeLine::M => 0,
-        CodeLine::S => 1,
-        CodeLine::T => 2,
-        CodeLine::B => 3,
-    }
 }
 
 fn dot(a: &Point, b: &Point) -> f64 {

@@ -8,15 +8,14 @@ mod timing;
 use machine::EventKind;
 use meaning::CodeLine;
 use plot::{Drawing, Look, Mark, MarkKind, Title};
-use report::{Format, render};
 
 use self::driven::Driven;
 use self::strokes::{Strokes, layer};
 use super::{name_of, open, run_through};
 use crate::arguments::{LayerArgument, PlotArguments, ViewArgument};
 use crate::failure::Failure;
-use crate::output::{colour_err, say, write_file};
-use crate::show_alarm::show_alarm;
+use crate::output::write_file;
+use crate::show_alarm::tell_alarm;
 
 /// What a picture can be.
 enum Picture {
@@ -93,8 +92,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<bool, Failure> {
             EventKind::End { .. } => mark(MarkKind::End, String::new()),
             EventKind::Alarm(alarm) => {
                 alarmed = true;
-                let (diagnostic, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
-                say(&render(&diagnostic, &excerpt, Format::Text { colour: colour_err() }));
+                let (diagnostic, _) = tell_alarm(alarm, control, machine, session.library_mut());
                 mark(MarkKind::Alarm, diagnostic.alarm.map_or_else(String::new, |alarm| alarm.name));
             }
             _ => {}

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use report::{Format, Sheet, render, sheet_html, sheet_json, sheet_text};
+use report::{Sheet, sheet_html, sheet_json, sheet_text};
 
 use super::open;
 use crate::arguments::{SheetArguments, SheetFormat};
 use crate::failure::Failure;
-use crate::output::{colour_err, paint_out, say, write_file};
-use crate::show_alarm::show_alarm;
+use crate::output::{paint_out, write_file};
+use crate::show_alarm::tell_alarm;
 
 /// Standard output, where a file is named.
 const STDOUT: &str = "-";
@@ -21,8 +21,7 @@ pub fn sheet(arguments: &SheetArguments) -> Result<bool, Failure> {
     if let Some(alarm) = sheet.alarm {
         let configuration = session.configuration().clone();
         let (control, machine) = (&configuration.control, &configuration.machine);
-        let (diagnostic, excerpt) = show_alarm(&alarm, control, machine, session.library_mut());
-        say(&render(&diagnostic, &excerpt, Format::Text { colour: colour_err() }));
+        let (diagnostic, excerpt) = tell_alarm(&alarm, control, machine, session.library_mut());
         let name = diagnostic.alarm.map_or_else(String::new, |alarm| alarm.name);
         sheet.alarm_text = Some(format!("line {}: alarm {name}, {}", excerpt.line, diagnostic.message));
     }

@@ -1,13 +1,13 @@
 //! `trace`: every executed event as JSON Lines.
 
 use machine::EventKind;
-use report::{Format, Tracer, render};
+use report::Tracer;
 
 use super::{open, run_through};
 use crate::arguments::TraceArguments;
 use crate::failure::Failure;
-use crate::output::{Output, colour_err, say};
-use crate::show_alarm::show_alarm;
+use crate::output::Output;
+use crate::show_alarm::tell_alarm;
 
 pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
     let mut session = open(&arguments.file, &arguments.setting)?;
@@ -30,10 +30,8 @@ pub fn trace(arguments: &TraceArguments) -> Result<bool, Failure> {
         let mut diagnostic = None;
         if let EventKind::Alarm(alarm) = &event.kind {
             alarmed = true;
-            let (found, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
             output.flush()?;
-            say(&render(&found, &excerpt, Format::Text { colour: colour_err() }));
-            diagnostic = Some(found);
+            diagnostic = Some(tell_alarm(alarm, control, machine, session.library_mut()).0);
         }
         let interpreter = session.interpreter();
         tracer.write(event, |program| interpreter.program_name(program), diagnostic.as_ref(), &mut output.buffer);

@@ -18,12 +18,7 @@ pub fn check_sequences(table: &Table, sequences: &[Placed], lines: &[LogicLine],
         if sequences.get(..index).is_some_and(|before| before.iter().any(|other| same(&other))) {
             table.error(placed.code.clone(), format!("{name} has two sequences; a code has one"));
         }
-        let digits = match row.line {
-            CodeLine::M => codes.digits[0],
-            CodeLine::S => codes.digits[1],
-            CodeLine::T => codes.digits[2],
-            CodeLine::B => codes.digits[3],
-        };
+        let digits = codes.digits[row.line.index()];
         if row.code.is_some_and(|code| code >= 10u32.saturating_pow(u32::from(digits))) {
             let why = format!("{name} never goes out: its lines have {digits} digits");
             table.error(placed.code.clone(), why);

@@ -4,7 +4,7 @@
 
 use base::{Alarm, Condition, Place};
 use machine::{DecodedLine, Machine, Signal, Trouble, Wait, Waiting};
-use meaning::Close;
+use meaning::{Close, CodeOut};
 use path::{Shape, Shaped};
 
 use super::Session;
@@ -25,6 +25,11 @@ pub(super) fn decoded_lines(configuration: &Configuration, inputs: &Inputs) -> V
         Some(DecodedLine { code: u32::from(row.code), eop, rwd })
     })
     .collect()
+}
+
+/// What an alarm says of a code that is waited for: its letter, its number, for how long, s.
+pub(super) fn values_of(code: CodeOut, seconds: f64) -> [f64; 3] {
+    [f64::from(u32::from(code.line.letter())), f64::from(code.code), seconds]
 }
 
 impl<L: Library> Session<L> {
@@ -210,7 +215,7 @@ impl<L: Library> Session<L> {
     fn never_comes(&self, waiting: &Waiting) -> Alarm {
         match self.machine.logic_late(waiting.code) {
             Some(wait) => {
-                let values = [f64::from(u32::from(waiting.code.line.letter())), f64::from(waiting.code.code), wait];
+                let values = values_of(waiting.code, wait);
                 Alarm::new(Condition::LogicTimeOut, waiting.place, waiting.place.block).with(values)
             }
             None if waiting.on => self.given_up(Trouble::Missing, waiting),
@@ -225,7 +230,7 @@ impl<L: Library> Session<L> {
             Trouble::Stuck => Condition::FinStuck,
         };
         let time_out = self.configuration.machine.handshake.time_out.0;
-        let values = [f64::from(u32::from(waiting.code.line.letter())), f64::from(waiting.code.code), time_out];
+        let values = values_of(waiting.code, time_out);
         Alarm::new(condition, waiting.place, waiting.place.block).with(values)
     }
 }

@@ -4,6 +4,7 @@ use base::{Alarm, Condition, Place};
 use machine::{LimitSwitch, LogicAlarm, LogicFate};
 
 use super::Session;
+use super::awaiting::values_of;
 use crate::fault::Fault;
 use crate::library::Library;
 
@@ -97,8 +98,7 @@ impl<L: Library> Session<L> {
             Some(_) => Condition::LogicTimeOut,
             None => Condition::LogicPositionMissing,
         };
-        let values =
-            [f64::from(u32::from(late.code.line.letter())), f64::from(late.code.code), late.wait.unwrap_or(0.0)];
+        let values = values_of(late.code, late.wait.unwrap_or(0.0));
         self.trip(Alarm::new(condition, place, place.block).with(values));
         let now = self.time();
         self.machine.drop_late_logic(now, &mut self.events);

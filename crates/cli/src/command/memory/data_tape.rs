@@ -9,16 +9,15 @@ use base::SourceId;
 use dialect::{Control, MMeaning, Meaning};
 use machine::EventKind;
 use memory::{Change, Content, Kind};
-use report::{Format, render};
 use station::{Operator, Session, Step, number_of, programs_in};
 use syntax::Cursor;
 
 use crate::arguments::{ExportArguments, ImportArguments};
 use crate::command::operate::keeping::Keeping;
 use crate::failure::Failure;
-use crate::output::{colour_err, say};
+use crate::output::say;
 use crate::setting;
-use crate::show_alarm::show_alarm;
+use crate::show_alarm::tell_alarm;
 use crate::texts::Texts;
 
 /// Digits behind the point that a word has.
@@ -177,8 +176,7 @@ pub fn read(arguments: &ImportArguments, text: String) -> Result<bool, Failure> 
             Step::Event(event) => {
                 if let EventKind::Alarm(alarm) = &event.kind {
                     let machine = session.configuration().machine.clone();
-                    let (found, excerpt) = show_alarm(alarm, &control, &machine, session.library_mut());
-                    say(&render(&found, &excerpt, Format::Text { colour: colour_err() }));
+                    tell_alarm(alarm, &control, &machine, session.library_mut());
                     return Ok(false);
                 }
             }

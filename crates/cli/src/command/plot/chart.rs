@@ -2,15 +2,13 @@
 
 use machine::EventKind;
 use plot::{Chart, ChartAxis, Kind, Title};
-use report::{Format, render};
 
 use super::Picture;
 use super::driven::run_of;
 use crate::arguments::PlotArguments;
 use crate::command::{name_of, open, run_through};
 use crate::failure::Failure;
-use crate::output::{colour_err, say};
-use crate::show_alarm::show_alarm;
+use crate::show_alarm::tell_alarm;
 
 /// How close the places are of which velocities are drawn, mm: as close as directions change on the smallest arcs.
 const TOLERANCE_MM: f64 = 1e-3;
@@ -52,8 +50,7 @@ pub(super) fn chart(arguments: &PlotArguments, picture: Picture) -> Result<bool,
             EventKind::Start(_) => chart.name(name_of(session, event.place.program)),
             EventKind::Alarm(alarm) => {
                 alarmed = true;
-                let (diagnostic, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
-                say(&render(&diagnostic, &excerpt, Format::Text { colour: colour_err() }));
+                tell_alarm(alarm, control, machine, session.library_mut());
             }
             _ => {}
         }

@@ -3,15 +3,14 @@
 use machine::{EventKind, Signal};
 use meaning::CodeLine;
 use plot::{Kind, Timing, Title};
-use report::{Format, Tracer, render};
+use report::Tracer;
 
 use super::Picture;
 use super::driven::run_of;
 use crate::arguments::PlotArguments;
 use crate::command::{name_of, open, run_through};
 use crate::failure::Failure;
-use crate::output::{colour_err, say};
-use crate::show_alarm::show_alarm;
+use crate::show_alarm::tell_alarm;
 
 /// The row of a code, and its name.
 const fn code_row(line: CodeLine) -> (u32, &'static str) {
@@ -78,8 +77,7 @@ pub(super) fn timing(arguments: &PlotArguments, picture: Picture) -> Result<bool
             }
             EventKind::Alarm(alarm) => {
                 alarmed = true;
-                let (diagnostic, excerpt) = show_alarm(alarm, control, machine, session.library_mut());
-                say(&render(&diagnostic, &excerpt, Format::Text { colour: colour_err() }));
+                tell_alarm(alarm, control, machine, session.library_mut());
             }
             _ => {}
         }
