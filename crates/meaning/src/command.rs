@@ -10,7 +10,7 @@ use crate::cycle::Holes;
 use crate::data_setting::DataWrite;
 use crate::element::Offset;
 use crate::kinematics::Kinematics;
-use crate::operation::{CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
+use crate::operation::{CodeLine, CodeOut, Dwell, EndKind, Feed, Plane, RapidKind, SetValue, Side, StopKind};
 use crate::program::Frame;
 use crate::state::State;
 use crate::wording::Wording;
@@ -205,6 +205,37 @@ pub enum Leads {
 }
 
 impl Command {
+    /// One that says nothing, in this state.
+    pub(crate) fn empty(state: &State) -> Command {
+        Command {
+            block: 0,
+            place: Place::default(),
+            after: *state,
+            from: state.machine,
+            codes: [CodeOut { line: CodeLine::M, code: 0, digits: 0, after_motion: false }; MOST_CODES],
+            code_count: 0,
+            optional_code: None,
+            body: Body::Nothing,
+            write: None,
+            finish: Finish::Next,
+            stops_reading: false,
+            side: Side::Off,
+            offset: None,
+            drops: AxisSet::NONE,
+            written: AxisSet::NONE,
+            axis_words: [Extent::default(); AXES],
+            absolute: AxisSet::NONE,
+            returned: AxisSet::NONE,
+            stroke_check: false,
+            wording: Wording::default(),
+            from_unknown: false,
+            frame: Frame::default(),
+            here: Cursor::HEAD,
+            called: false,
+            first: false,
+        }
+    }
+
     /// Where it leads an axis that stands beside the place at which the program counts it.
     pub fn leads(&self, axis: usize) -> Leads {
         let drills =

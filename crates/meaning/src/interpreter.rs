@@ -17,7 +17,7 @@ use crate::facts::{MachineFacts, Memory, Switches};
 use crate::operation::Operation;
 use crate::pull::Barrier;
 use crate::queue::Queue;
-use crate::reader::{Reader, empty_command};
+use crate::reader::Reader;
 use crate::record::{StatementRuns, WordsRead};
 use crate::setting::Setting;
 use crate::state::State;
@@ -88,7 +88,7 @@ impl Interpreter {
         };
         Interpreter {
             reader: Reader::new(setting, state),
-            queue: Queue::new(&empty_command(&state)),
+            queue: Queue::new(&Command::empty(&state)),
             expansion: Expansion::idle(),
             operation: Operation::default(),
             barrier: None,

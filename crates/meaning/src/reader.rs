@@ -2,6 +2,7 @@
 
 mod doubt;
 mod follow;
+mod handing_on;
 mod rows;
 mod selection;
 mod text;
@@ -10,13 +11,13 @@ pub(crate) use follow::After;
 
 use std::collections::VecDeque;
 
-use base::{AXES, Alarm, AxisSet, Condition, Place, SourceId, Span};
+use base::{Place, SourceId};
 use syntax::{Block, Cursor};
 
 use crate::block::{Flow, read_meaning};
-use crate::command::{Body, Command, Finish, MOST_CODES};
+use crate::command::Command;
 use crate::jump::{Calls, LoopsAround};
-use crate::operation::{CodeLine, CodeOut, EndKind, SetValue, Side};
+use crate::operation::SetValue;
 use crate::program::{CallName, Frame, Names, ProgramKey};
 use crate::pull::Quantity;
 use crate::record::{Records, WordsRead};
@@ -30,7 +31,6 @@ use crate::user_macro::flow::MOST_AHEAD;
 use crate::user_macro::store::Store;
 use crate::user_macro::{BLANK, LOCALS};
 use crate::word::Refusal;
-use crate::wording::Wording;
 use text::Text;
 
 /// What came of reading.
@@ -331,121 +331,5 @@ impl Reader {
                 self.refuse(alarm, command).is_some()
             }
         }
-    }
-
-    pub(crate) fn begin(&mut self, next: Cursor, command: &mut Command) {
-        if let Some(frame) = self.calls.frames.last_mut() {
-            command.first = !frame.begun;
-            if !frame.begun {
-                frame.first = self.block.start.offset;
-            }
-            // Copied before it is written to: a copy of what has just been written waits for it.
-            command.frame = Frame { cursor: next, begun: true, ..*frame };
-            (frame.cursor, frame.begun) = (next, true);
-        }
-        command.here = self.block.start;
-        command.called = self.calls.frames.len() > 1;
-    }
-
-    fn prepare(&self, command: &mut Command, place: Place) {
-        command.block = self.blocks;
-        command.place = place;
-        command.from = self.state.machine;
-        command.code_count = 0;
-        command.optional_code = None;
-        command.body = Body::Nothing;
-        command.write = None;
-        command.finish = Finish::Next;
-        command.stops_reading = false;
-        command.written = AxisSet::NONE;
-        command.absolute = AxisSet::NONE;
-        command.returned = AxisSet::NONE;
-        command.offset = None;
-        command.drops = AxisSet::NONE;
-        command.wording = Wording::default();
-        command.from_unknown = !self.state.unknown.axes.is_empty();
-    }
-
-    fn count(&mut self, command: &Command) {
-        self.blocks += 1;
-        if !matches!(command.body, Body::Nothing | Body::Set(..)) || command.finish != Finish::Next {
-            self.jumps = 0;
-            self.statements = 0;
-            self.moved = true;
-        }
-    }
-
-    /// The block is refused: it has no effect. Checking on, what it names becomes unknown.
-    pub(crate) fn refuse(&mut self, alarm: Alarm, command: &mut Command) -> Option<Read> {
-        let clouded = self.unknown_in_block().clouds(alarm.condition, &self.setting.control.roles, alarm.axis);
-        if !self.goes_on || alarm.condition == Condition::EndlessLoop {
-            self.ended = true;
-        } else {
-            self.forget_what_it_names();
-        }
-        if clouded {
-            return None;
-        }
-        self.prepare(command, alarm.place);
-        command.body = Body::Alarm(alarm);
-        command.after = *self.state;
-        self.blocks += 1;
-        Some(Read::Command)
-    }
-
-    fn end_of_text(&mut self, frame: &Frame, command: &mut Command) -> Read {
-        let Cursor { offset, line, line_start, .. } = frame.cursor;
-        self.prepare(
-            command,
-            Place {
-                program: frame.program,
-                source: frame.source,
-                line,
-                line_start,
-                block: Span { start: offset, len: 0 },
-                sequence: 0,
-            },
-        );
-        command.finish = Finish::End(EndKind::Text);
-        command.after = *self.state;
-        command.side = Side::Off;
-        command.offset = None;
-        command.frame = *frame;
-        command.here = frame.cursor;
-        command.called = self.calls.frames.len() > 1;
-        command.first = false;
-        self.ended = true;
-        Read::Command
-    }
-}
-
-/// A command that says nothing.
-pub(crate) fn empty_command(state: &State) -> Command {
-    Command {
-        block: 0,
-        place: Place::default(),
-        after: *state,
-        from: state.machine,
-        codes: [CodeOut { line: CodeLine::M, code: 0, digits: 0, after_motion: false }; MOST_CODES],
-        code_count: 0,
-        optional_code: None,
-        body: Body::Nothing,
-        write: None,
-        finish: Finish::Next,
-        stops_reading: false,
-        side: Side::Off,
-        offset: None,
-        drops: AxisSet::NONE,
-        written: AxisSet::NONE,
-        axis_words: [syntax::Extent::default(); AXES],
-        absolute: AxisSet::NONE,
-        returned: AxisSet::NONE,
-        stroke_check: false,
-        wording: Wording::default(),
-        from_unknown: false,
-        frame: Frame::default(),
-        here: Cursor::HEAD,
-        called: false,
-        first: false,
     }
 }

@@ -1,18 +1,20 @@
 //! The stage: one shape in, the same shape out with its duration.
 
-use base::{AXES, Point, Seconds};
+mod alone;
+mod driving;
+
+use base::Seconds;
 use meaning::{Answer, Feed, Pull, StaleBarrier};
-use path::{Arc, Path, Shape, Shaped};
+use path::{Path, Shape, Shaped};
 
 use crate::engine::{Kept, Sample};
-use crate::horizon::{Move, Setpoint};
-use crate::limits::{Limits, Model};
+use crate::horizon::Move;
+use crate::limits::Limits;
 use crate::overrides::Overrides;
 use crate::planner::{Ahead, Pace, Planner, Stretch};
 use crate::positioning::Positioning;
-use crate::profile::Trapezoid;
-use crate::scurve::SCurve;
 use crate::way::Way;
+use alone::{along, distance};
 
 /// A shape with its time.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -212,89 +214,6 @@ impl Motion {
         }
     }
 
-    /// Begins to drive the present move step by step; it has been shown if it is driven together with others.
-    pub fn begin(&mut self) {
-        self.planned = None;
-        let Shape::Rapid { from, to, .. } = &self.upstream.current().shape else { return };
-        if self.is_joined() {
-            return;
-        }
-        self.positioning = Some(self.positioning(from, to));
-    }
-
-    /// Positioning from here to there that has not begun.
-    pub(crate) fn positioning(&self, from: &Point, to: &Point) -> Positioning {
-        let (limits, overrides) = (&self.limits, &self.overrides);
-        if limits.straight_rapid {
-            let length = distance(from, to, limits.count);
-            let (rate, acceleration) = along(limits, from, to, length, |axis| overrides.rapid(axis.rapid));
-            let jerk = jerk_along(limits, from, to, length);
-            return Positioning::straight(from, to, length, [rate, acceleration, jerk]);
-        }
-        let of = |axis: usize| {
-            let own = &limits.axes[axis];
-            [overrides.rapid(own.rapid), own.acceleration, limits.jerk(axis)]
-        };
-        Positioning::by_axes(from, to, of, limits.count)
-    }
-
-    /// Drives the present move for a time, s: what is left of it, and whether the move has ended.
-    pub fn drive_for(&mut self, seconds: f64) -> (f64, bool) {
-        match (&mut self.positioning, &mut self.planner) {
-            (Some(positioning), _) => positioning.drive_for(seconds),
-            (None, Some(planner)) => planner.drive_for(seconds),
-            _ => (seconds, true),
-        }
-    }
-
-    /// The present move has been driven to its end in this time, s.
-    pub fn end(&mut self, seconds: f64) {
-        let timed = self.time(self.upstream.current());
-        let speed = self.overrides.commanded(&feed_of(timed.shaped)) / 60.0;
-        let pace = if self.positioning.is_some() { timed.pace } else { Pace { asked: speed, ..Pace::default() } };
-        self.positioning = None;
-        self.planned = Some((seconds, pace));
-    }
-
-    /// What is left of the present move is dropped, and what was to follow; the axes stand.
-    pub fn drop_rest(&mut self) {
-        self.positioning = None;
-        self.forget_ahead();
-    }
-
-    /// The axes shall stand as soon as they can, or go on.
-    pub fn hold(&mut self, held: bool) {
-        match (&mut self.positioning, &mut self.planner) {
-            (Some(positioning), _) => positioning.hold(held),
-            (None, Some(planner)) => planner.hold(held),
-            _ => {}
-        }
-    }
-
-    /// What follows is touched: the axes stand at the end of the first move at whose end they can.
-    pub fn stand_soon(&mut self) {
-        if let Some(planner) = &mut self.planner {
-            planner.stand_soon();
-        }
-    }
-
-    /// True if nothing moves.
-    pub fn is_standing(&self) -> bool {
-        match (&self.positioning, &self.planner) {
-            (Some(positioning), _) => positioning.is_standing(),
-            (None, Some(planner)) => planner.is_standing(),
-            _ => true,
-        }
-    }
-
-    /// Where the axes are on the present move, and how fast, while it is driven step by step.
-    pub fn setpoint(&self) -> Option<Setpoint> {
-        match (&self.positioning, &self.planner) {
-            (Some(positioning), _) => Some(positioning.setpoint()),
-            (None, planner) => planner.as_ref().and_then(|planner| planner.setpoint()),
-        }
-    }
-
     /// Answers the interpreter's open barrier.
     ///
     /// # Errors
@@ -342,145 +261,4 @@ impl Motion {
         };
         Timed { shaped, duration: Seconds(seconds), length, feed, pace }
     }
-
-    fn rapid(&self, from: &Point, to: &Point) -> (f64, f64, f64) {
-        let length = distance(from, to, self.limits.count);
-        if self.limits.straight_rapid {
-            let (speed, acceleration) = along(&self.limits, from, to, length, |axis| self.overrides.rapid(axis.rapid));
-            let jerk = jerk_along(&self.limits, from, to, length);
-            return (from_rest_to_rest(length, speed, acceleration, jerk), length, 0.0);
-        }
-        let mut longest = 0.0f64;
-        for axis in 0..self.limits.count {
-            let way = (to[axis] - from[axis]).abs();
-            if way > 0.0 {
-                let limits = &self.limits.axes[axis];
-                let (rate, jerk) = (self.overrides.rapid(limits.rapid), self.limits.jerk(axis));
-                longest = longest.max(from_rest_to_rest(way, rate, limits.acceleration, jerk));
-            }
-        }
-        (longest, length, 0.0)
-    }
-
-    /// The straight speed of positioning in which every axis runs at its rate, or waits for the slowest.
-    fn rapid_rate(&self, from: &Point, to: &Point, length: f64) -> f64 {
-        let needed = |axis: usize| (to[axis] - from[axis]).abs() / self.overrides.rapid(self.limits.axes[axis].rapid);
-        let longest = (0..self.limits.count).map(needed).fold(0.0, f64::max);
-        if longest > 0.0 { length / longest } else { 0.0 }
-    }
-
-    fn line(&self, from: &Point, to: &Point, feed: &Feed) -> (f64, f64, f64) {
-        let length = distance(from, to, self.limits.count);
-        let at_rapid = self.overrides.at_rapid(feed);
-        let rate = |axis: &crate::AxisLimits| if at_rapid { self.overrides.rapid(axis.rapid) } else { axis.max_feed };
-        let (most, acceleration) = along(&self.limits, from, to, length, rate);
-        let (commanded, speed) = if at_rapid {
-            (along(&self.limits, from, to, length, |axis| axis.rapid).0 * 60.0, most)
-        } else {
-            // The feed of the tool's tip, whose way is another than that of the axes.
-            let share = if feed.way_mm > 0.0 { length / feed.way_mm } else { 1.0 };
-            (self.overrides.commanded(feed), most.min(self.overrides.actual(feed) / 60.0 * share))
-        };
-        let jerk = jerk_along(&self.limits, from, to, length);
-        (from_rest_to_rest(length, speed, acceleration, jerk), length, commanded)
-    }
-
-    /// An arc. Its own acceleration towards the centre and that along the path share what the plane's axes can give:
-    /// the speed is held to where the first takes at most 1/√2 of it, the second gets the rest.
-    fn arc(&self, arc: &Arc, feed: &Feed) -> (f64, f64, f64) {
-        let (plane_length, length) = (arc.plane_length(), arc.length());
-        if plane_length <= 0.0 {
-            return (0.0, 0.0, 0.0);
-        }
-        let steepness = length / plane_length;
-        let [u, v] = arc.axes.map(|axis| &self.limits.axes[usize::from(axis) % AXES]);
-        let given = u.acceleration.min(v.acceleration);
-        let radius = arc.radius[0].min(arc.radius[1]).max(1e-6);
-        let centripetal = (given * radius * std::f64::consts::FRAC_1_SQRT_2).sqrt();
-        let at_rapid = self.overrides.at_rapid(feed);
-        let rate = |axis: &crate::AxisLimits| if at_rapid { self.overrides.rapid(axis.rapid) } else { axis.max_feed };
-        let most = rate(u).min(rate(v));
-        let (commanded, actual) = if at_rapid {
-            (u.rapid.min(v.rapid) * 60.0, most)
-        } else {
-            (self.overrides.commanded(feed), self.overrides.actual(feed) / 60.0)
-        };
-        // Speeds in the plane; the axes beside it keep step.
-        let mut speed = actual.min(most).min(centripetal);
-        let towards_centre = speed * speed / radius;
-        let mut acceleration = (given * given - towards_centre * towards_centre).max(0.0).sqrt();
-        for axis in (0..self.limits.count).filter(|&axis| !arc.axes.contains(&(axis as u8))) {
-            let way = (arc.to[axis] - arc.from[axis]).abs();
-            if way > 0.0 {
-                speed = speed.min(rate(&self.limits.axes[axis]) * plane_length / way);
-                acceleration = acceleration.min(self.limits.axes[axis].acceleration * plane_length / way);
-            }
-        }
-        let jerk = arc.axes.map(|axis| self.limits.jerk(usize::from(axis) % AXES));
-        let seconds = from_rest_to_rest(plane_length, speed, acceleration, jerk[0].min(jerk[1]));
-        (seconds, length, commanded * steepness)
-    }
-}
-
-/// The feed of a cutting move.
-fn feed_of(shaped: &Shaped) -> Feed {
-    match &shaped.shape {
-        Shape::Line { feed, .. } | Shape::Arc { feed, .. } => *feed,
-        _ => Feed { mm_per_min: 0.0, exact_stop: false, tapping: false, per_revolution: false, way_mm: 0.0 },
-    }
-}
-
-/// The highest speed and acceleration along a straight way that no axis is asked too much by.
-fn along(
-    limits: &Limits,
-    from: &Point,
-    to: &Point,
-    length: f64,
-    rate: impl Fn(&crate::AxisLimits) -> f64,
-) -> (f64, f64) {
-    // What holds it most: a limit, and the axis' own way. Only theirs is worth a division.
-    let (mut speed, mut acceleration) = ((f64::INFINITY, 1.0), (f64::INFINITY, 1.0));
-    for axis in 0..limits.count {
-        let way = (to[axis] - from[axis]).abs();
-        if way > 0.0 {
-            let limits = &limits.axes[axis];
-            speed = tighter(speed, (rate(limits), way));
-            acceleration = tighter(acceleration, (limits.acceleration, way));
-        }
-    }
-    // Where nothing moves there is no bound.
-    let along = |(limit, way): (f64, f64)| if limit.is_finite() { limit * length / way } else { limit };
-    (along(speed), along(acceleration))
-}
-
-/// The highest jerk along a straight way; infinite under all models but one.
-fn jerk_along(limits: &Limits, from: &Point, to: &Point, length: f64) -> f64 {
-    if limits.model != Model::Jerk {
-        return f64::INFINITY;
-    }
-    let each = |axis: usize| limits.axes[axis].jerk * length / (to[axis] - from[axis]).abs();
-    (0..limits.count).filter(|&axis| to[axis] != from[axis]).map(each).fold(f64::INFINITY, f64::min)
-}
-
-/// How long a move takes that is not planned together with others, s.
-fn from_rest_to_rest(length: f64, speed: f64, acceleration: f64, jerk: f64) -> f64 {
-    if jerk < f64::INFINITY {
-        SCurve::new(length, speed, acceleration, jerk).seconds()
-    } else {
-        Trapezoid::new(length, speed, acceleration).seconds()
-    }
-}
-
-/// The smaller one of two limits, each divided by its axis' way.
-fn tighter(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
-    if other.0 * one.1 < one.0 * other.1 { other } else { one }
-}
-
-fn distance(from: &Point, to: &Point, axes: usize) -> f64 {
-    let mut sum = 0.0;
-    for axis in 0..axes.min(AXES) {
-        let way = to[axis] - from[axis];
-        sum += way * way;
-    }
-    sum.sqrt()
 }

@@ -6,7 +6,7 @@ use super::Interpreter;
 use crate::command::{Body, Command, Finish};
 use crate::operation::{Act, Close, EndKind, Operation};
 use crate::pull::{Barrier, BarrierKind, Pull};
-use crate::reader::{Read, empty_command};
+use crate::reader::Read;
 use crate::state::State;
 use crate::supply::WINDOW;
 
@@ -179,7 +179,7 @@ impl Interpreter {
         self.started = true;
         let first = *self.queue.slot();
         let start = self.queue.slot();
-        *start = empty_command(&self.start_state);
+        *start = Command::empty(&self.start_state);
         start.place = Place { program: first.place.program, source: first.place.source, ..Place::default() };
         start.body = Body::Start(self.start_state.groups);
         self.queue.take_in();
