@@ -34,12 +34,13 @@ pub enum Value {
 }
 
 impl Value {
-    fn object<const N: usize>(fields: [(&str, Value); N]) -> Value {
+    /// An object of these fields.
+    pub(crate) fn object<const N: usize>(fields: [(&str, Value); N]) -> Value {
         Value::Object(fields.map(|(name, value)| (name.to_owned(), value)).into())
     }
 
     /// An object of fields that are there or not.
-    fn fields(fields: Vec<(&str, Value)>) -> Value {
+    pub(crate) fn fields(fields: Vec<(&str, Value)>) -> Value {
         Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
     }
 

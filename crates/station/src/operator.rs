@@ -3,6 +3,7 @@
 mod by_hand;
 mod editing;
 mod kept;
+mod keys;
 mod lasting;
 mod loading;
 mod restart;
@@ -15,8 +16,8 @@ mod write;
 use std::collections::{BTreeMap, VecDeque};
 
 use base::SourceId;
-use dialect::{FileNames, Key, ModeRow, VariableMeaning};
-use machine::{Event, ResetCause};
+use dialect::{FileNames, ModeRow, VariableMeaning};
+use machine::Event;
 use syntax::Cursor;
 
 use crate::action::Action;
@@ -235,33 +236,6 @@ impl<L: Shelf> Operator<L> {
             action => return Ok(self.write(action)),
         }
         Ok(Ok(()))
-    }
-
-    /// A key beside the usual buttons does what the control's table says.
-    fn press_key(&mut self, name: &str) -> Result<(), String> {
-        let station = &self.session.configuration().control.station;
-        let known = station.keys.iter().find(|(key, _)| key.eq_ignore_ascii_case(name));
-        let number = name.get(1..).and_then(|number| number.parse().ok()).unwrap_or(0);
-        let (action, cause) = match known.map(|(_, does)| does.clone()) {
-            Some(Key::Reset) => (Action::Reset, Some(ResetCause::FunctionKey(number))),
-            Some(Key::Mode(mode)) => (Action::Mode(mode), None),
-            None if station.keys.is_empty() => return Err("this control has no such keys".to_owned()),
-            None => {
-                let known: Vec<_> = station.keys.iter().map(|(key, _)| key.as_str()).collect();
-                return Err(format!("no key {name} is known; the keys are {}", known.join(", ")));
-            }
-        };
-        if let Some(why) = table::refusal(&action, table::situation(&self.session, self.mode())) {
-            return Err(why.to_owned());
-        }
-        match (action, cause) {
-            (Action::Mode(mode), _) => self.turn_mode(&mode),
-            (_, Some(cause)) => {
-                self.session.reset_by(cause);
-                Ok(())
-            }
-            _ => Ok(()),
-        }
     }
 
     /// Something breaks on purpose.

@@ -14,6 +14,7 @@ mod locks;
 mod pointer;
 mod rehearsal;
 mod searching;
+mod starting;
 mod states;
 mod tape_reader;
 mod telling;
@@ -25,14 +26,14 @@ use std::collections::VecDeque;
 
 use base::{AXES, Alarm, AxisSet, Place, Point, Seconds};
 use machine::{Event, EventKind, Machine, VirtualMachine};
-use meaning::{Interpreter, Switches, TRANSFORMED};
+use meaning::Interpreter;
 use motion::Motion;
 use path::{Path, RunBeside, Shape, Shaped};
 
 use crate::configuration::{Configuration, Inputs};
 use crate::library::{Library, LibraryError};
 use crate::lock::AxisLock;
-use crate::switches::{SessionSwitches, Which};
+use crate::switches::SessionSwitches;
 
 pub use alarm_history::PastAlarm;
 pub use approach::RestartPlan;
@@ -347,111 +348,10 @@ impl<L: Library> Session<L> {
         }
     }
 
-    /// Chooses the program to run, which begins at `head` in its text.
-    pub fn select(&mut self, source: base::SourceId, name: &str, head: syntax::Cursor) {
-        self.come_back();
-        self.leave_program();
-        self.interpreter_mut().select_at(source, name, head);
-        self.pulled = false;
-        self.between_blocks = true;
-        self.told = None;
-        self.rewound = true;
-        self.ended = true;
-    }
-
-    /// CYCLE START: begins the selected program, or goes on after a stop.
-    pub fn start(&mut self) {
-        self.restart_rehearsal();
-        if self.ended {
-            self.reader = None;
-            let rewound = self.rewound;
-            let interpreter = self.interpreter_mut();
-            if rewound {
-                interpreter.rewind();
-            } else {
-                interpreter.go_on_after_end();
-            }
-        }
-        self.ended = false;
-        self.rewound = false;
-        self.stopped = false;
-        self.feed_held = false;
-        self.release();
-    }
-
-    /// CYCLE START in tape mode: as [`Session::start`], and a tape that stands in its middle is read on behind the next
-    /// end of block while LABEL SKIP is on.
-    pub fn start_tape(&mut self) {
-        let (begins, skips) = (self.ended, self.ended && !self.rewound && self.label_skip);
-        self.start();
-        if begins {
-            self.load_reader();
-        }
-        self.label_skip = false;
-        if skips {
-            self.interpreter_mut().skip_label();
-        }
-    }
-
-    /// The program from its head once more, everything else as it stands.
-    pub fn start_over(&mut self) {
-        self.rewound = true;
-        self.ended = true;
-        self.start();
-    }
-
-    /// Turns a switch.
-    ///
-    /// # Errors
-    /// Why not, in words.
-    pub fn set_switch(&mut self, name: &str, which: Which, on: bool) -> Result<(), String> {
-        self.configuration.check_switch(name, which)?;
-        self.switches.set(name, which, on)?;
-        self.switched = true;
-        self.pass_switches();
-        self.pass_overrides();
-        Ok(())
-    }
-
-    /// How the switches stand.
-    pub fn switches(&self) -> SessionSwitches {
-        self.switches
-    }
-
-    /// Turns the override switches.
-    pub fn set_percents(&mut self, percents: Percents) {
-        self.percents = percents;
-        self.pass_overrides();
-    }
-
-    /// How the override switches stand.
-    pub fn percents(&self) -> Percents {
-        self.percents
-    }
-
-    /// The speeds in force.
-    pub fn overrides(&self) -> &motion::Overrides {
-        self.motion.overrides()
-    }
-
-    /// Parameters have been written: what is set from them is set anew.
-    pub fn take_parameters(&mut self) {
-        self.pass_overrides();
-    }
-
     /// True if it waits for the feed override to leave zero.
     pub fn waits_for_feed(&self) -> bool {
         let waits = self.pulled || self.under_way.is_some();
         waits && self.is_running() && !self.stopped && self.is_still(self.motion.upstream.current())
-    }
-
-    fn pass_switches(&mut self) {
-        let SessionSwitches { optional_stop, block_delete, .. } = self.switches;
-        let axes = &self.configuration.machine.axes;
-        let mut mirror_image = AxisSet::NONE;
-        let mirrored = |axis: &usize| self.switches.mirrors(axes[*axis].letter);
-        (0..axes.len().min(TRANSFORMED)).filter(mirrored).for_each(|axis| mirror_image.add(axis));
-        *self.interpreter_mut().switches_mut() = Switches { optional_stop, block_delete, mirror_image };
     }
 
     /// The block being executed.

@@ -273,8 +273,7 @@ impl<L: Library> Operator<L> {
         let line = part.map_or(1, |part| part.line);
         let first = line.saturating_sub(PAGE as u64 / 2);
         let cursor = part.map_or(Value::Null, |part| {
-            let at = [("line", Value::Number(part.line as f64)), ("word", Value::Text(program.word(&part)))];
-            Value::Object(at.map(|(name, value)| (name.to_owned(), value)).into())
+            Value::object([("line", Value::Number(part.line as f64)), ("word", Value::Text(program.word(&part)))])
         });
         let lines = program.lines(first, PAGE).into_iter().map(Value::Text).collect();
         Some([("cursor".to_owned(), cursor), ("text".to_owned(), Value::List(lines))])

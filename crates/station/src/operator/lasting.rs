@@ -41,14 +41,7 @@ impl<L: Shelf> Operator<L> {
                 lets && !self.session.is_tapping()
             }
             Action::Reset | Action::EmergencyStop | Action::PowerOff => true,
-            Action::Key(name) => self
-                .session
-                .configuration()
-                .control
-                .station
-                .keys
-                .iter()
-                .any(|(key, does)| key.eq_ignore_ascii_case(name) && *does == Key::Reset),
+            Action::Key(name) => self.key(name) == Some(&Key::Reset),
             _ => false,
         };
         if !(self.by_the_clock && stops && self.session.is_driven()) {

@@ -135,29 +135,25 @@ fn show<L: Library>(session: &Session<L>, plan: &RestartPlan) -> Value {
     let [pass, passes] = plan.pass;
     let [s, t, b, h, d] = plan.words;
     let sequence = plan.place.sequence;
-    Value::Object(
-        [
-            ("program", Value::Text(plan.program.clone())),
-            ("line", Value::Number(plan.place.line as f64)),
-            ("n", if sequence > 0 { whole(sequence) } else { Value::Null }),
-            ("pass", whole(pass)),
-            ("passes", whole(passes)),
-            ("modal", Value::Object(groups.collect())),
-            ("f", Value::Number(plan.feed)),
-            ("s", whole(s)),
-            ("t", whole(t)),
-            ("b", whole(b)),
-            ("h", whole(h)),
-            ("d", whole(d)),
-            ("machine", point(&plan.to)),
-            ("work", point(&plan.work)),
-            ("approach", Value::List(plan.legs.iter().map(leg).collect())),
-            ("give", texts(plan.give.iter().map(code).collect())),
-            ("not_restored", texts(not_restored(session, plan))),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .into(),
-    )
+    Value::object([
+        ("program", Value::Text(plan.program.clone())),
+        ("line", Value::Number(plan.place.line as f64)),
+        ("n", if sequence > 0 { whole(sequence) } else { Value::Null }),
+        ("pass", whole(pass)),
+        ("passes", whole(passes)),
+        ("modal", Value::Object(groups.collect())),
+        ("f", Value::Number(plan.feed)),
+        ("s", whole(s)),
+        ("t", whole(t)),
+        ("b", whole(b)),
+        ("h", whole(h)),
+        ("d", whole(d)),
+        ("machine", point(&plan.to)),
+        ("work", point(&plan.work)),
+        ("approach", Value::List(plan.legs.iter().map(leg).collect())),
+        ("give", texts(plan.give.iter().map(code).collect())),
+        ("not_restored", texts(not_restored(session, plan))),
+    ])
 }
 
 /// What the control cannot bring back, or cannot know, one sentence each.

@@ -57,16 +57,12 @@ impl<L: Shelf> Operator<L> {
             return Ok(Err(format!("there is no N{number} in {name}")));
         };
         self.session.point_at(found);
-        let value = Value::Object(
-            [
-                ("program", Value::Text(name)),
-                ("line", Value::Number(found.line as f64)),
-                ("n", Value::Number(f64::from(number))),
-                ("warning", Value::Text(WARNING.to_owned())),
-            ]
-            .map(|(name, value)| (name.to_owned(), value))
-            .into(),
-        );
+        let value = Value::object([
+            ("program", Value::Text(name)),
+            ("line", Value::Number(found.line as f64)),
+            ("n", Value::Number(f64::from(number))),
+            ("warning", Value::Text(WARNING.to_owned())),
+        ]);
         tell(&mut self.session, Said::Shown { what: "search".to_owned(), value });
         Ok(Ok(()))
     }

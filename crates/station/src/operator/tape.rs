@@ -129,17 +129,13 @@ fn verified(key: &str, on_tape: &[Line], in_memory: &[Line]) -> Value {
         .find(|(tape, memory)| tape.map(|(_, words)| words) != memory.map(|(_, words)| words));
     let block = |found: Option<&Line>| match found {
         None => Value::Null,
-        Some((line, words)) => Value::Object(vec![
-            ("line".to_owned(), Value::Number(*line as f64)),
-            ("block".to_owned(), Value::Text(words.clone())),
-        ]),
+        Some((line, words)) => {
+            Value::object([("line", Value::Number(*line as f64)), ("block", Value::Text(words.clone()))])
+        }
     };
-    let mut fields = vec![
-        ("program".to_owned(), Value::Text(key.to_owned())),
-        ("alike".to_owned(), Value::Truth(differs.is_none())),
-    ];
+    let mut fields = vec![("program", Value::Text(key.to_owned())), ("alike", Value::Truth(differs.is_none()))];
     if let Some((tape, memory)) = differs {
-        fields.extend([("tape".to_owned(), block(tape)), ("memory".to_owned(), block(memory))]);
+        fields.extend([("tape", block(tape)), ("memory", block(memory))]);
     }
-    Value::Object(fields)
+    Value::fields(fields)
 }

@@ -1,14 +1,16 @@
-//! The switches that keep axes or displays still, and those that change speeds, passed on to the stages.
+//! The switches and overrides as the operator has set them, passed on to the stages: which blocks are read and how, which
+//! axes and displays keep still, how fast.
 
 use base::{AXES, AxisSet, Place, Point};
 use machine::Machine;
-use meaning::RapidKind;
+use meaning::{RapidKind, Switches, TRANSFORMED};
 use motion::Overrides;
 use path::{Shape, Shaped};
 
 use super::Session;
 use super::by_hand::ByHand;
 use crate::library::Library;
+use crate::switches::{SessionSwitches, Which};
 
 /// The axis of the switch Z-AXIS CANCEL.
 pub(super) const CANCELLED_AXIS: u8 = b'Z';
@@ -32,6 +34,55 @@ impl Default for Percents {
 }
 
 impl<L: Library> Session<L> {
+    /// Turns a switch.
+    ///
+    /// # Errors
+    /// Why not, in words.
+    pub fn set_switch(&mut self, name: &str, which: Which, on: bool) -> Result<(), String> {
+        self.configuration.check_switch(name, which)?;
+        self.switches.set(name, which, on)?;
+        self.switched = true;
+        self.pass_switches();
+        self.pass_overrides();
+        Ok(())
+    }
+
+    /// How the switches stand.
+    pub fn switches(&self) -> SessionSwitches {
+        self.switches
+    }
+
+    /// Turns the override switches.
+    pub fn set_percents(&mut self, percents: Percents) {
+        self.percents = percents;
+        self.pass_overrides();
+    }
+
+    /// How the override switches stand.
+    pub fn percents(&self) -> Percents {
+        self.percents
+    }
+
+    /// The speeds in force.
+    pub fn overrides(&self) -> &motion::Overrides {
+        self.motion.overrides()
+    }
+
+    /// Parameters have been written: what is set from them is set anew.
+    pub fn take_parameters(&mut self) {
+        self.pass_overrides();
+    }
+
+    /// The switches that decide how blocks are read.
+    pub(super) fn pass_switches(&mut self) {
+        let SessionSwitches { optional_stop, block_delete, .. } = self.switches;
+        let axes = &self.configuration.machine.axes;
+        let mut mirror_image = AxisSet::NONE;
+        let mirrored = |axis: &usize| self.switches.mirrors(axes[*axis].letter);
+        (0..axes.len().min(TRANSFORMED)).filter(mirrored).for_each(|axis| mirror_image.add(axis));
+        *self.interpreter_mut().switches_mut() = Switches { optional_stop, block_delete, mirror_image };
+    }
+
     /// Which axes the switches in force hold.
     pub(super) fn pass_locks(&mut self) {
         let axes = &self.configuration.machine.axes;
