@@ -57,6 +57,11 @@ impl Overrides {
         }
     }
 
+    /// True if nothing runs at the rapid rate.
+    pub fn rapid_stands(&self) -> bool {
+        self.rapid <= 0.0 || self.rapid_limit <= 0.0
+    }
+
     /// True if a cut at the rapid rate is not at the axes' own.
     pub(crate) fn rapid_tells(&self) -> bool {
         self.rapid != 1.0 || self.rapid_limit < f64::INFINITY || self.dry_run.is_some()

@@ -150,8 +150,8 @@ impl<L: Library> Operator<L> {
             Some("cycle-start".to_owned())
         } else if let Some(waiting) = session.waiting() {
             Some(self.awaited(&waiting))
-        } else if session.waits_for_feed() {
-            Some("feed-override".to_owned())
+        } else if session.waits_for_override() {
+            Some(if session.waits_for_rapid() { "rapid-override" } else { "feed-override" }.to_owned())
         } else if session.goes_round() {
             Some("the end of an endless program".to_owned())
         } else {

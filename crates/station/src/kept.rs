@@ -101,7 +101,7 @@ fn stored_system(control: &Control, index: usize) -> String {
     row.map_or_else(|| format!("work {}", index + 1), |row| control.g_name(row as u8))
 }
 
-/// Every cell, always in the same order.
+/// Every cell that the control has, always in the same order.
 fn see_cells(
     (control, fitting): (&Control, &Fitting),
     axes: usize,
@@ -121,8 +121,12 @@ fn see_cells(
     for (system, origin) in memory.work.iter().enumerate() {
         origin.iter().take(axes).enumerate().for_each(|(axis, &counts)| see(Cell::Work(system, axis), counts));
     }
-    base_origin.iter().take(axes).enumerate().for_each(|(axis, &counts)| see(Cell::Base(axis), counts));
-    memory.external.iter().take(axes).enumerate().for_each(|(axis, &counts)| see(Cell::External(axis), counts));
+    if control.base_system.is_some() {
+        base_origin.iter().take(axes).enumerate().for_each(|(axis, &counts)| see(Cell::Base(axis), counts));
+    }
+    if control.functions.work.external {
+        memory.external.iter().take(axes).enumerate().for_each(|(axis, &counts)| see(Cell::External(axis), counts));
+    }
     (0..control.parameters.len()).for_each(|index| see(Cell::Parameter(index), fitting.parameter(index)));
     memory.variables.kept().for_each(|(number, value)| see(Cell::Variable(number), value));
 }

@@ -348,10 +348,20 @@ impl<L: Library> Session<L> {
         }
     }
 
-    /// True if it waits for the feed override to leave zero.
-    pub fn waits_for_feed(&self) -> bool {
+    /// True if it waits for an override to leave zero.
+    pub fn waits_for_override(&self) -> bool {
         let waits = self.pulled || self.under_way.is_some();
         waits && self.is_running() && !self.stopped && self.is_still(self.motion.upstream.current())
+    }
+
+    /// True if that is the rapid override.
+    pub fn waits_for_rapid(&self) -> bool {
+        let is_rapid = match &self.motion.upstream.current().shape {
+            Shape::Rapid { .. } => true,
+            Shape::Line { feed, .. } | Shape::Arc { feed, .. } => self.motion.overrides().at_rapid(feed),
+            _ => false,
+        };
+        is_rapid && self.waits_for_override()
     }
 
     /// The block being executed.

@@ -115,6 +115,9 @@ impl<L: Library> Session<L> {
     /// A block that closes goes on doing so; false if it still waits.
     pub(super) fn go_on_closing(&mut self) -> bool {
         let Some((close, place)) = self.closing else { return true };
+        if !self.settle_returned(&place) {
+            return false;
+        }
         let since = self.machine.time();
         if self.waits_for_codes() && !self.await_machine(&place) {
             return false;

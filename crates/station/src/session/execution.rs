@@ -139,9 +139,11 @@ impl<L: Library> Session<L> {
         executed
     }
 
-    /// True while feed moves stand still because the feed override is at zero; the codes of their block are out then.
+    /// True while moves stand still because an override, or the jog speed of DRY RUN, is at zero; the codes of their block
+    /// are out then.
     pub(super) fn stands_still(&mut self) -> bool {
-        if self.feed_percent() > 0 || self.after_alarm == AfterAlarm::GoOn {
+        let runs = self.feed_percent() > 0 && self.percents.rapid > 0 && !self.switches.dry_run;
+        if runs || self.after_alarm == AfterAlarm::GoOn {
             return false;
         }
         if self.between_blocks {
@@ -150,10 +152,14 @@ impl<L: Library> Session<L> {
         self.is_still(self.motion.upstream.current()) && self.start_codes()
     }
 
-    /// True for a feed move that the feed override does not let run.
+    /// True for a move that the override switches do not let run.
     pub(super) fn is_still(&self, shaped: &Shaped) -> bool {
+        let overrides = self.motion.overrides();
         match &shaped.shape {
-            Shape::Line { feed, .. } | Shape::Arc { feed, .. } => self.motion.overrides().actual(feed) <= 0.0,
+            Shape::Line { feed, .. } | Shape::Arc { feed, .. } if overrides.at_rapid(feed) => overrides.rapid_stands(),
+            Shape::Line { feed, .. } | Shape::Arc { feed, .. } => overrides.actual(feed) <= 0.0,
+            // Axes that a lock has led astray may have a way where none is counted.
+            Shape::Rapid { from, to, .. } => overrides.rapid_stands() && (from != to || self.lock.acts()),
             _ => false,
         }
     }
@@ -227,7 +233,6 @@ impl<L: Library> Session<L> {
     fn close(&mut self, close: Close, place: Place) {
         self.between_blocks = true;
         self.unfound = AxisSet::NONE;
-        self.settle_returned(&place);
         if std::mem::take(&mut self.codes_out) && self.waits_for_codes() {
             self.rest();
         }

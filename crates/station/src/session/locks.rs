@@ -139,16 +139,19 @@ impl<L: Library> Session<L> {
     }
 
     /// The block is done. Axes that it has returned to their reference point stand there and are counted anew, also
-    /// where the control thought that they stood there already.
-    pub(super) fn settle_returned(&mut self, place: &Place) {
+    /// where the control thought that they stood there already. False while the rapid override does not let them.
+    pub(super) fn settle_returned(&mut self, place: &Place) -> bool {
         if !self.lock.acts() {
-            return;
+            return true;
         }
         let astray = self.lock.astray(self.returned());
         let from = *self.machine.position();
         let mut to = from;
         for axis in astray.iter() {
             to[axis] = self.lock.counted(&from)[axis];
+        }
+        if to != from && self.motion.overrides().rapid_stands() {
+            return false;
         }
         self.lock.settle(astray);
         if to != from {
@@ -159,6 +162,7 @@ impl<L: Library> Session<L> {
                 self.raise(refusal.alarm);
             }
         }
+        true
     }
 
     /// The counted move has been made; what the axes did not make of it is remembered.
