@@ -35,7 +35,7 @@ const PAGES: &[&str] = &[
     "state",
     "offset 31",
     "offset H1",
-    "offset D7",
+    "offset D8",
     "work G52",
     "work G54",
     "work external",

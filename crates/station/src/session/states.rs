@@ -48,6 +48,8 @@ impl<L: Library> Session<L> {
     /// The power goes off: what is under way is lost, what the memory keeps is kept.
     pub fn power_off(&mut self) {
         self.break_off();
+        // A switch that an axis has run onto while it came to stand raises nothing without power.
+        self.tripped = None;
         let now = self.time();
         self.machine.stop_spindle(now, &mut self.events);
         self.interpreter_mut().store_codes();

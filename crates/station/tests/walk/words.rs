@@ -184,12 +184,12 @@ pub const WORDS: &[(u32, &[&str])] = &[
             "offset 0 = 1",
             "offset 31 = 10000000",
             "offset H1 = 12.5",
-            "offset D7 = -4",
+            "offset D8 = -4",
             "touch 33",
             "touch 33 at 50",
             "touch H2",
             "touch H2 at -3.5",
-            "touch D7",
+            "touch D8",
             "work G54 X = 10",
             "work G54 Z = -0.001",
             "work G59 Y = 12345.678",
@@ -282,7 +282,7 @@ pub const WORDS: &[(u32, &[&str])] = &[
     ),
 ];
 
-/// Cells that an operator writes here, and no program.
+/// Cells that an operator writes here, and no program. (6001 remembers inch or metric, which programs change.)
 pub const CELLS: &[&str] = &[
     "offset 31",
     "offset 32",
@@ -290,12 +290,11 @@ pub const CELLS: &[&str] = &[
     "offset 100",
     "offset H1",
     "offset H2",
-    "offset D7",
+    "offset D8",
     "work G54",
     "work G59",
     "work external",
     "parameter 6005",
-    "parameter 6001",
     "parameter jog speed",
     "parameter cycle clearance",
     "variable 500",
