@@ -333,7 +333,10 @@ impl Machine for VirtualMachine {
             }
             Shape::Start(groups) => self.tell(told, place, EventKind::Start(*groups)),
             shape @ (Shape::Rapid { .. } | Shape::Line { .. } | Shape::Arc { .. }) => {
-                self.wait_to_move(place, told);
+                // A move that no block has made is one by hand, and has been made already.
+                if place.line > 0 {
+                    self.wait_to_move(place, told);
+                }
                 let signal = match shape {
                     Shape::Line { from, to, feed } if timed.shaped.until_signal => {
                         let signal = self.until_signal(from, to);

@@ -211,7 +211,11 @@ impl<L: Library> Session<L> {
         self.codes.clear();
         self.tell(alarm.place, EventKind::Alarm(alarm));
         match self.after_alarm {
-            AfterAlarm::Stand => self.alarm = Some(alarm),
+            AfterAlarm::Stand => {
+                self.alarm = Some(alarm);
+                // What was held or stopped does not go on by CYCLE START any more.
+                (self.stopped, self.feed_held) = (false, false);
+            }
             AfterAlarm::GoOn => {
                 self.between_blocks = true;
                 if let Some(axis) = alarm.axis {

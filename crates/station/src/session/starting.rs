@@ -14,9 +14,6 @@ impl<L: Library> Session<L> {
         self.pulled = false;
         self.between_blocks = true;
         self.told = None;
-        // A program in which an alarm has come while it was held is left for good.
-        self.stopped = false;
-        self.feed_held = false;
         self.rewound = true;
         self.ended = true;
     }

@@ -129,6 +129,8 @@ impl Station {
         let before = Before::of(self);
         let Station { operator, watch, events, refused, .. } = self;
         *refused = false;
+        // Looking at a text again and again is no standing still.
+        operator.session.library_mut().again = 0;
         let mut tell = |session: &mut Session<Texts>, said: Said| match said {
             Said::Event(event) => {
                 watch.see(&event, session);
@@ -291,6 +293,7 @@ impl Station {
 
     /// What a display shows.
     pub fn shows(&mut self, what: &str) -> String {
+        self.operator.session.library_mut().again = 0;
         let Ok(Action::Show(show)) = read_action(&format!("show {what}")) else { panic!("{what}") };
         format!("{:?}", self.operator.display(&show))
     }

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use base::SourceId;
 use machine::{MachineFile, read_machine};
 use station::{Configuration, Setup, read_setup};
 
@@ -137,5 +138,7 @@ pub fn reopened(place: usize, kept: &[(station::CellKind, String, String)]) -> C
 pub fn texts(place: usize) -> Texts {
     let by_file = CONFIGURATIONS[place % PLACES.len()].control.files.is_some();
     let programs = if by_file { &FILES } else { &PROGRAMS };
-    Texts { texts: programs.iter().map(|text| text.as_bytes().to_vec()).collect(), ..Texts::default() }
+    // The shelf knows by its file what M98 calls.
+    let files = vec![("P4.CNC", SourceId(4))];
+    Texts { texts: programs.iter().map(|text| text.as_bytes().to_vec()).collect(), files, ..Texts::default() }
 }
