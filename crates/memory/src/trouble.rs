@@ -24,7 +24,7 @@ impl Trouble {
             }
             Some(ErrorCode::CannotOpen) => "check that the folder exists and may be written",
             Some(ErrorCode::SystemIoFailure) => {
-                "the disk failed: check it, then open the memory again; nothing was acknowledged"
+                "the disk failed or is full: check it, then open the memory again; nothing of this was acknowledged"
             }
             Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked) => "another program has it open: end that first",
             Some(ErrorCode::NotADatabase | ErrorCode::DatabaseCorrupt) => {
