@@ -186,17 +186,28 @@ impl<L: Shelf> Operator<L> {
         action: &Action,
         tell: &mut dyn FnMut(&mut Session<L>, Said),
     ) -> Result<Result<(), String>, LibraryError> {
-        if table::changes_what_follows(action) {
-            if !self.session.is_moving() {
-                self.session.forget_rehearsal();
-            } else {
-                self.session.stand_soon();
-                if !table::acts_at_block_ends(action) && !table::acts_at_once(action) {
-                    self.waiting.push_back(action.clone());
-                    return Ok(Ok(()));
-                }
+        let touches = table::changes_what_follows(action);
+        if touches && self.session.is_moving() {
+            self.session.stand_soon();
+            if !table::acts_at_block_ends(action) && !table::acts_at_once(action) {
+                self.waiting.push_back(action.clone());
+                return Ok(Ok(()));
             }
+            return self.carry_out(action, tell);
         }
+        let outcome = self.carry_out(action, tell)?;
+        // What is refused leaves what follows as it was planned.
+        if touches && outcome.is_ok() {
+            self.session.forget_rehearsal();
+        }
+        Ok(outcome)
+    }
+
+    fn carry_out(
+        &mut self,
+        action: &Action,
+        tell: &mut dyn FnMut(&mut Session<L>, Said),
+    ) -> Result<Result<(), String>, LibraryError> {
         let session = &mut self.session;
         match action {
             Action::PowerOn => session.power_on(),

@@ -198,3 +198,20 @@ fn typed_blocks_leave_the_program_where_it_was() {
     let typed = ["mode mdi", "mdi M03S100", "cycle-start", "run until idle"];
     assert_eq!(places(&[&stopped[..], &typed[..]].concat()), places(&stopped));
 }
+
+/// What is refused in a held move leaves the moves behind it as they were planned.
+#[test]
+fn a_write_refused_while_a_move_is_held_costs_no_time() {
+    let events = |between: &[&str]| {
+        // Here lengths and radii have columns of their own, and a number alone is no cell.
+        let mut station = Station::new(5);
+        station.script(&["select P13", "cycle-start", "run for 0.005", "feed-hold"]);
+        for line in between {
+            station.script(&[line]);
+            assert!(station.refused, "{line}");
+        }
+        station.script(&["cycle-start", "run for 7"]);
+        station.events
+    };
+    assert_eq!(events(&["offset 31 = 10", "work G60 X = 1", "switch nothing on"]), events(&[]));
+}
