@@ -268,31 +268,3 @@ fn without_a_folder_the_memory_is_in_the_users_data_folder() {
         assert!(home.path().join(".local/share/cyclestart/memory/yasnac-mx1/memory.sqlite").is_file());
     }
 }
-
-/// No file of the process may grow beyond 50 or 100 KiB (as the shell counts): the store cannot take what it is given.
-#[cfg(unix)]
-#[test]
-fn a_full_disk_is_said_and_loses_nothing_that_was_acknowledged() {
-    let folder = folder();
-    let memory = folder.path().join("memory");
-    let shown = operate(&memory, &[], "offset 31 = 6\nshow offset 31\n");
-    has(&shown, &["\"what\":\"offset 31\",\"value\":6"]);
-    let mut script = "offset 31 = 7\nshow offset 31\n".to_owned();
-    for number in 1..=6 {
-        let file = folder.path().join(format!("P{number}.nc"));
-        fs::write(&file, format!("O{number}\n{}M30\n", "G01 X10. F100\n".repeat(2800))).expect("written");
-        script += &format!("load {}\n", file.display());
-    }
-    let file = folder.path().join("shift.txt");
-    fs::write(&file, script + "show directory\n").expect("written");
-    let full = Command::new("sh")
-        .args(["-c", "trap '' XFSZ; ulimit -f 100; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_cyclestart"), "operate"])
-        .args([&file, Path::new("--memory"), &memory])
-        .output()
-        .expect("a shell");
-    assert_eq!(full.status.code(), Some(2), "{}", text(&full.stdout));
-    has(&text(&full.stderr), &["memory.sqlite", "nothing was acknowledged"]);
-    assert_eq!(text(&full.stdout), "", "what has not been kept is not shown as done");
-    let kept = operate(&memory, &[], "show offset 31\nshow directory\n");
-    has(&kept, &["\"what\":\"offset 31\",\"value\":6", "\"programs\":[]"]);
-}
