@@ -20,7 +20,7 @@ pub use drives::Drives;
 pub use event::{Event, EventKind, ResetCause, StopCause};
 pub use file::{CodeTimes, MachineAxis, MachineFile, Wiring, builtin_machine, builtin_machines, read_machine};
 pub use interface::{DecodedLine, HandshakeTimes};
-pub use logic::{LogicFate, LogicTable, LogicTrouble, LogicWait, Watched};
+pub use logic::{LogicFate, LogicTable, LogicTrouble, LogicWait, SpindleSays, Watched};
 pub use path_table::PathTable;
 pub use reference_return::ReferenceReturn;
 pub use signals::{Fin, LimitSwitch, Magazine, MagazineFacts, Signal, Spindle, SpindleFacts, Trouble, Waiting};

@@ -136,8 +136,18 @@ impl LogicTable {
 
     /// What a code does: its own sequence, else that of its lines.
     pub fn sequence_of(&self, code: CodeOut) -> Option<usize> {
-        let of = |number| self.sequences.iter().position(|row| row.line == code.line && row.code == number);
-        of(Some(code.code)).or_else(|| of(None))
+        self.sequence_on(code.line, code.code)
+    }
+
+    fn sequence_on(&self, line: CodeLine, code: u32) -> Option<usize> {
+        let of = |number| self.sequences.iter().position(|row| row.line == line && row.code == number);
+        of(Some(code)).or_else(|| of(None))
+    }
+
+    /// True if the steps of a code wait for the spindle's drive to say this.
+    pub fn asks_spindle(&self, line: CodeLine, code: u32, says: SpindleSays) -> bool {
+        let steps = self.sequence_on(line, code).and_then(|index| self.sequences.get(index)).map(|row| &row.steps);
+        steps.is_some_and(|steps| steps.iter().any(|step| step.waits.contains(&(Watched::Spindle(says), true))))
     }
 
     /// The input of this name.

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use machine::{Event, EventKind};
 use meaning::State;
-use station::{At, BlockTarget, HandMove, Session, Setup, Step, read_setup};
+use station::{At, BlockTarget, HandMove, RestartPlan, Session, Setup, Step, read_setup};
 use watch::{Texts, machine};
 
 /// Events after which a program is given up.
@@ -81,6 +81,18 @@ fn run(session: &mut Session<Texts>) -> Run {
     run
 }
 
+/// True if both do the same. An overtravel switch is looked at each servo period, and where in one it is met is chance.
+fn are_alike(rest: &[(u64, Deed)], whole: &[(u64, Deed)], period_s: f64) -> bool {
+    let [.., (line, Deed::Feed(to, feed)), trip @ (_, Deed::Alarm(base::Condition::LimitSwitchReached, _))] = rest
+    else {
+        return rest == whole;
+    };
+    let [.., (own_line, Deed::Feed(own_to, own_feed)), own_trip] = whole else { return false };
+    let near = to.iter().zip(own_to).all(|(to, own)| (to - own).abs() <= feed / 60.0 * period_s);
+    let before = rest.len() - 2;
+    near && (line, feed, trip) == (own_line, own_feed, own_trip) && whole.get(..whole.len() - 2) == rest.get(..before)
+}
+
 /// How the axes stand when a program is taken up.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Stand {
@@ -106,9 +118,30 @@ fn jog(session: &mut Session<Texts>) {
     }
 }
 
+/// The codes that the machine still wants are given by MDI, in the order in which they are named.
+fn give(session: &mut Session<Texts>, target: &BlockTarget, plan: RestartPlan) -> Result<RestartPlan, String> {
+    if plan.give.is_empty() {
+        return Ok(plan);
+    }
+    for (line, code) in &plan.give {
+        session.type_blocks(&format!("{line:?}{code}"));
+        session.start_typed();
+        run(session);
+        session.come_back();
+    }
+    let after = session.plan_restart(target, None).map_err(|why| format!("{target}: {why}"))?;
+    let is_there = after.give.is_empty();
+    is_there.then_some(after).ok_or_else(|| format!("{target}: {:?} does not bring the machine there", plan.give))
+}
+
 /// Takes up a program at blocks all over it; how many there were, and what was wrong.
 fn take_up(session: impl Fn() -> Session<Texts>, stand: Stand) -> Result<usize, String> {
+    // Overtravel switches are met by axes that take their time.
     let mut whole = session();
+    let has_switches = !whole.configuration().machine.limit_switches().is_empty();
+    if has_switches {
+        whole.run_live();
+    }
     whole.start();
     let whole = run(&mut whole);
     if whole.deeds.len() >= MOST_EVENTS || whole.begun.len() >= MOST_EVENTS {
@@ -120,8 +153,8 @@ fn take_up(session: impl Fn() -> Session<Texts>, stand: Stand) -> Result<usize, 
         let target = &begun.target;
         let mut session = session();
         match stand {
-            Stand::AtTheHead => {}
-            Stand::Live => session.run_live(),
+            Stand::AtTheHead if !has_switches => {}
+            Stand::AtTheHead | Stand::Live => session.run_live(),
             Stand::Elsewhere => jog(&mut session),
         }
         let plan = match session.plan_restart(target, None) {
@@ -139,23 +172,22 @@ fn take_up(session: impl Fn() -> Session<Texts>, stand: Stand) -> Result<usize, 
         {
             continue;
         }
+        let gives = !plan.give.is_empty();
+        let plan = give(&mut session, target, plan)?;
         session.restart(target, None, &plan, false).map_err(|why| format!("{target}: {why}"))?;
-        let state = *session.interpreter().state_before();
+        let mut state = *session.interpreter().state_before();
+        if gives && begun.state.miscellaneous == 0 {
+            // A program that has commanded no M code finds the last one that was given.
+            state.miscellaneous = 0;
+        }
         if state != begun.state && !elsewhere {
             return Err(format!("{target}: the state: {state:?}\nand not {:?}", begun.state));
         }
         let rest = run(&mut session);
-        // Where the machine stands otherwise than in the whole run it may not do what is asked: an arm that waits for the
-        // spindle's angle, a switch on the way. It says so, and that is right.
-        let refuses = |deed: &Deed| {
-            matches!(deed, Deed::Alarm(base::Condition::LogicTimeOut | base::Condition::LimitSwitchReached, _))
-        };
-        if rest.deeds.last().is_some_and(|(_, deed)| refuses(deed)) {
-            continue;
-        }
         // Behind the way of the axes to the place, which belongs to no line.
         let moved = rest.deeds.iter().take_while(|(line, _)| *line == 0).count();
-        if moved != plan.legs.len() || rest.deeds[moved..] != whole.deeds[begun.done..] {
+        let period = session.servo_period();
+        if moved != plan.legs.len() || !are_alike(&rest.deeds[moved..], &whole.deeds[begun.done..], period) {
             let wanted = &whole.deeds[begun.done..];
             return Err(format!(
                 "{target}: {moved} of {:?}, then {:?}\nand not {wanted:?}",

@@ -2,7 +2,7 @@
 
 use base::{AxisSet, Place, Point};
 use dialect::{GroupCodes, RestartApproach};
-use machine::{EventKind, Machine, StopCause};
+use machine::{EventKind, Machine, SpindleSays, StopCause};
 use meaning::{CodeLine, CodeOut, LENGTH_AXIS, RapidKind};
 use path::Shape;
 
@@ -59,6 +59,11 @@ impl RestartPlan {
     }
 }
 
+/// The M codes of the spindle, as the machine's file has them in rows.
+const FORWARD: usize = 0;
+const REVERSE: usize = 1;
+const STOP: usize = 2;
+const ORIENTATION: usize = 3;
 /// Nearer than this the axis stands there, mm or degrees.
 const THERE: f64 = 1e-9;
 
@@ -164,12 +169,28 @@ impl<L: Library> Session<L> {
     /// The codes that bring spindle, tool and index table to where the program has them.
     fn codes_to_give<T: Library>(&self, trial: &Session<T>, way: &Way) -> Vec<(CodeLine, u32)> {
         let mut codes = Vec::new();
+        let spindle = |machine: &machine::Spindle| (machine.rpm(f64::INFINITY), machine.orients());
+        let (wanted, mut is) = (spindle(trial.machine.spindle()), spindle(self.machine.spindle()));
+        let turns = &self.configuration.machine.spindle.codes;
+        let turning = |row: usize| turns.get(row).and_then(|codes| codes.first()).map(|code| (CodeLine::M, *code));
         let ([tool, pocket], [own_tool, mut own_pocket]) = (trial.tools(), self.tools());
         if tool != own_tool {
             if tool != own_pocket {
                 codes.push((CodeLine::T, tool));
             }
-            codes.extend(self.configuration.machine.magazine.change.first().map(|change| (CodeLine::M, *change)));
+            if let Some(&change) = self.configuration.machine.magazine.change.first() {
+                // What the builder's change waits for comes before it.
+                let logic = &self.configuration.machine.logic;
+                let asks = |says| logic.asks_spindle(CodeLine::M, change, says);
+                if asks(SpindleSays::Angle) && !is.1 {
+                    codes.extend(turning(ORIENTATION));
+                    is = (0.0, true);
+                } else if asks(SpindleSays::Stands) && is.0 != 0.0 {
+                    codes.extend(turning(STOP));
+                    is = (0.0, false);
+                }
+                codes.push((CodeLine::M, change));
+            }
             own_pocket = tool;
         }
         if pocket != own_pocket {
@@ -180,17 +201,13 @@ impl<L: Library> Session<L> {
         {
             codes.push((CodeLine::B, code));
         }
-        let spindle = |machine: &machine::Spindle| (machine.rpm(f64::INFINITY), machine.orients());
-        let (wanted, is) = (spindle(trial.machine.spindle()), spindle(self.machine.spindle()));
         if wanted != is {
-            let turns = &self.configuration.machine.spindle.codes;
-            let code = |row: usize| turns.get(row).and_then(|codes| codes.first()).map(|code| (CodeLine::M, *code));
             let speed = trial.interpreter().state_before().spindle;
             let turning = match wanted {
-                (_, true) => code(3),
-                (rpm, _) if rpm > 0.0 => code(0),
-                (rpm, _) if rpm < 0.0 => code(1),
-                _ => code(2),
+                (_, true) => turning(ORIENTATION),
+                (rpm, _) if rpm > 0.0 => turning(FORWARD),
+                (rpm, _) if rpm < 0.0 => turning(REVERSE),
+                _ => turning(STOP),
             };
             if wanted.0 != 0.0 && wanted.0.abs() != is.0.abs() {
                 codes.push((CodeLine::S, speed));

@@ -265,6 +265,8 @@ impl<L: Library> Session<L> {
             let now = self.time().0;
             let setpoint = (now / period - ON_THE_DOT).ceil() * period;
             self.let_pass(setpoint);
+            // What stands by an override at zero is held too.
+            self.motion.hold(true);
         }
         while self.is_moving() && !self.stopped && self.alarm.is_none() {
             self.motion.hold(true);
