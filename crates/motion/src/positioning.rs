@@ -85,12 +85,7 @@ impl Positioning {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn point(x: f64, y: f64) -> Point {
-        let mut point = [0.0; AXES];
-        (point[0], point[1]) = (x, y);
-        point
-    }
+    use crate::way::expect::point;
 
     fn run() -> Positioning {
         Positioning::by_axes(

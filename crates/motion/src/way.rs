@@ -220,6 +220,9 @@ pub fn dot(one: &Point, other: &Point, count: usize) -> f64 {
 }
 
 #[cfg(test)]
+pub mod expect;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use meaning::{ArcMove, Plane};

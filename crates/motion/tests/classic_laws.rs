@@ -6,7 +6,7 @@ mod course;
 mod old_control;
 
 use base::AXES;
-use course::random::samples_asked;
+use course::seeds::samples_asked;
 use course::{arc, limits, line};
 use motion::{Classic, Interpolator, Limits, Move, Overrides, Setpoint, SpellKind};
 use old_control::{Step, by_moves, run};

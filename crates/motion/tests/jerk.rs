@@ -4,7 +4,7 @@
 
 mod course;
 use base::{AXES, Point};
-use course::random::over_seeds;
+use course::seeds::over_seeds;
 use course::{arc, line};
 use motion::{AxisLimits, JerkHorizon, Leg, Limits, Move, Overrides, SCurve, Way};
 

@@ -7,9 +7,10 @@ mod course;
 use std::cell::Cell;
 
 use course::program::{Program, program};
-use course::random::{Random, over_seeds};
+use course::seeds::over_seeds;
 use course::watch::{Act, Run, move_times, watch};
 use motion::Overrides;
+use testkit::Random;
 
 const PROGRAMS: u64 = 200;
 /// How far two ways of driving may differ in the time of a whole program, relative: rounding.

@@ -22,15 +22,7 @@ pub(crate) struct PathData {
 impl PathData {
     /// Draws a straight line; one that begins where the last one ended continues it.
     pub fn line(&mut self, from: [f64; 2], to: [f64; 2]) {
-        self.move_to(from);
-        let to = to.map(parts);
-        let Some(at) = self.lifted_to.or(self.at) else {
-            return;
-        };
-        if to == at {
-            return;
-        }
-        self.put_down();
+        let Some([at, to]) = self.begin(from, to) else { return };
         self.say('l');
         self.number(to[0] - at[0]);
         self.number(to[1] - at[1]);
@@ -39,15 +31,7 @@ impl PathData {
 
     /// Draws part of an upright ellipse, less than half of it; `clockwise` is as seen on the sheet.
     pub fn ellipse(&mut self, from: [f64; 2], to: [f64; 2], radii: [f64; 2], clockwise: bool) {
-        self.move_to(from);
-        let to = to.map(parts);
-        let Some(at) = self.lifted_to.or(self.at) else {
-            return;
-        };
-        if to == at {
-            return;
-        }
-        self.put_down();
+        let Some([at, to]) = self.begin(from, to) else { return };
         self.say('a');
         self.number(parts(radii[0]));
         self.number(parts(radii[1]));
@@ -55,6 +39,17 @@ impl PathData {
         self.number(to[0] - at[0]);
         self.number(to[1] - at[1]);
         self.arrive(to);
+    }
+
+    /// Puts the pen down at the beginning of a stroke; its two ends, if they are two places on the sheet.
+    fn begin(&mut self, from: [f64; 2], to: [f64; 2]) -> Option<[[i64; 2]; 2]> {
+        self.move_to(from);
+        let (at, to) = (self.lifted_to.or(self.at)?, to.map(parts));
+        if to == at {
+            return None;
+        }
+        self.put_down();
+        Some([at, to])
     }
 
     /// The finished paths, each fit for one `d` attribute.

@@ -9,8 +9,9 @@ use base::Condition;
 use contour::claims::{Cut, Seen, check, cuts, same_path};
 use contour::measure::{Form, Vector, add, apart, left_of, minus, times};
 use contour::program::{Bench, Beside, Corners, Job, Piece, Run, text};
-use contour::random::{Random, samples_asked};
+use contour::samples::samples_asked;
 use contour::{Contour, generate};
+use testkit::Random;
 
 /// How many contours of each kind a test runs if not said otherwise.
 const CONTOURS: u64 = 1500;

@@ -11,8 +11,9 @@ use std::f64::consts::TAU;
 
 use contour::measure::{Form, Vector, add, apart, left_of, times};
 use contour::program::{Bench, Corners, Job, Run, text, text_with};
-use contour::random::{Random, samples_asked};
+use contour::samples::samples_asked;
 use contour::{Contour, Element, generate};
+use testkit::Random;
 
 /// How many contours a test runs if not said otherwise.
 const CONTOURS: u64 = 1500;

@@ -13,8 +13,9 @@ use contour::claims::TANGENT;
 use contour::double::Double;
 use contour::measure::{Form, Vector, add, times, toward};
 use contour::program::{Bench, Corners, Job, Run, text};
-use contour::random::{Random, samples_asked};
+use contour::samples::samples_asked;
 use contour::{Contour, Element, Place, generate};
+use testkit::Random;
 
 /// How many pairs of elements are run if not said otherwise.
 const CORNERS: u64 = 20_000;

@@ -12,6 +12,7 @@ use std::path::Path;
 use base::{AXES, Point, Seconds};
 use machine::EventKind;
 use station::{HandMove, Session, Step};
+use testkit::Dice;
 use watch::Texts;
 
 /// Places nearer than this are the same, mm or degrees.
@@ -37,17 +38,6 @@ impl Seen {
     fn is(&self, other: &Seen) -> bool {
         let near = (0..AXES).all(|axis| (self.to[axis] - other.to[axis]).abs() < SAME);
         near && self.line == other.line && self.what == other.what
-    }
-}
-
-struct Dice(u64);
-
-impl Dice {
-    fn throw(&mut self, count: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 20) % count
     }
 }
 

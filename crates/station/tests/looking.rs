@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use base::Seconds;
 use machine::Event;
 use station::{OffsetColumn, Operator, Session, Show, Step, Value};
+use testkit::Dice;
 use watch::Texts;
 
 /// Seconds from one look to the next, at most.
@@ -23,17 +24,6 @@ const LOOKS: u64 = 400;
 const MOST_STARTS: u64 = 100;
 /// Events of a single program: some never end.
 const MOST_EVENTS: usize = 5000;
-
-struct Dice(u64);
-
-impl Dice {
-    fn throw(&mut self, count: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 20) % count
-    }
-}
 
 /// Every display there is.
 fn displays() -> Vec<Show> {

@@ -14,8 +14,9 @@ use cavalier_contours::polyline::{PlineOffsetOptions, PlineSource, PlineSourceMu
 use contour::claims::{EXACTNESS, least_clearance};
 use contour::measure::{Bow, Form, leaves};
 use contour::program::{Bench, Corners, Job, text};
-use contour::random::{Random, samples_asked};
+use contour::samples::samples_asked;
 use contour::{Contour, generate};
+use testkit::Random;
 
 /// How many contours are compared if not said otherwise.
 const CONTOURS: u64 = 10_000;

@@ -12,6 +12,7 @@ mod difference;
 mod judge;
 mod motion;
 mod program;
+mod random;
 mod rules;
 
 use std::fs;
@@ -27,6 +28,7 @@ pub use coverage::{alarms_are_covered, covers_are_known, rules_have_folders, war
 pub use difference::difference;
 pub use judge::{Mode, judge};
 pub use program::{Call, Outcome, Program};
+pub use random::{Dice, Random};
 
 /// Set to anything, it makes the runner write what the program prints into the case folders.
 const REWRITE: &str = "UPDATE_CASES";

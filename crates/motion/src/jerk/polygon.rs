@@ -313,12 +313,7 @@ fn add_cube(terms: &mut [Point; 4], corner: &Corner, sign: f64, at: f64, axes: u
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn point(x: f64, y: f64) -> Point {
-        let mut point = [0.0; AXES];
-        (point[0], point[1]) = (x, y);
-        point
-    }
+    use crate::way::expect::{point, steady};
 
     /// All pieces of a polygon.
     fn rounded(tolerance: f64, places: &[Point]) -> Vec<Way> {
@@ -342,20 +337,6 @@ mod tests {
         }
         assert!(stretch.is_cut());
         ways
-    }
-
-    fn steady(ways: &[Way]) {
-        for pair in ways.windows(2) {
-            let end = pair[0].length();
-            for axis in 0..2 {
-                let apart = [
-                    pair[0].at(end)[axis] - pair[1].at(0.0)[axis],
-                    pair[0].slope(end)[axis] - pair[1].slope(0.0)[axis],
-                    pair[0].bend(end)[axis] - pair[1].bend(0.0)[axis],
-                ];
-                assert!(apart.iter().all(|apart| apart.abs() < 1e-9), "{pair:?} {apart:?}");
-            }
-        }
     }
 
     #[test]

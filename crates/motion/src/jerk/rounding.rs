@@ -148,14 +148,9 @@ pub fn cubics(before: &Way, after: &Way, arm: f64) -> [Way; 3] {
 mod tests {
     use super::*;
     use crate::limits::AxisLimits;
+    use crate::way::expect::{point, steady};
     use meaning::{ArcMove, Plane};
     use path::Arc;
-
-    fn point(x: f64, y: f64) -> Point {
-        let mut point = [0.0; AXES];
-        (point[0], point[1]) = (x, y);
-        point
-    }
 
     fn limits() -> Limits {
         let axis = AxisLimits { rapid: 200.0, max_feed: 200.0, acceleration: 500.0, jerk: 5000.0 };
@@ -172,20 +167,6 @@ mod tests {
             full_circle: false,
         };
         Way::arc(&Arc::new(&point(0.0, 0.0), &arc))
-    }
-
-    fn steady(ways: &[Way]) {
-        for pair in ways.windows(2) {
-            let end = pair[0].length();
-            for axis in 0..2 {
-                let apart = [
-                    pair[0].at(end)[axis] - pair[1].at(0.0)[axis],
-                    pair[0].slope(end)[axis] - pair[1].slope(0.0)[axis],
-                    pair[0].bend(end)[axis] - pair[1].bend(0.0)[axis],
-                ];
-                assert!(apart.iter().all(|apart| apart.abs() < 1e-9), "{pair:?} {apart:?}");
-            }
-        }
     }
 
     #[test]

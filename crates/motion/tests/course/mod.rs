@@ -4,7 +4,7 @@
 
 pub mod oracle;
 pub mod program;
-pub mod random;
+pub mod seeds;
 pub mod watch;
 
 use base::{AXES, Point};

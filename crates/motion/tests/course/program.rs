@@ -8,7 +8,7 @@ use motion::{AxisLimits, Limits, Move, Way};
 use path::Arc;
 
 use super::feed;
-use super::random::Random;
+use testkit::Random;
 
 /// A program and the machine it runs on.
 #[derive(Clone, Debug)]

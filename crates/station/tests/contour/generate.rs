@@ -4,8 +4,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::measure::{Vector, length, times, toward};
-use super::random::Random;
 use super::{Contour, Element, Place};
+use testkit::Random;
 
 /// Directions (a, b)/c with whole numbers: what runs along them meets without rounding.
 const TRIPLES: [[i64; 3]; 7] =

@@ -7,7 +7,7 @@ pub mod double;
 pub mod generate;
 pub mod measure;
 pub mod program;
-pub mod random;
+pub mod samples;
 
 use measure::{Form, Vector};
 

@@ -11,6 +11,7 @@ use base::{AXES, Point, Seconds};
 use machine::EventKind;
 use motion::{Limits, Model, Setpoint};
 use station::{Percents, Session, Step};
+use testkit::Dice;
 
 use crate::watch::Texts;
 use path::Paths;
@@ -49,7 +50,7 @@ impl fmt::Display for Figures {
 
 /// What the operator does: nothing, or anything at any time.
 #[derive(Clone, Copy, Debug)]
-pub struct Hand(Option<u64>);
+pub struct Hand(Option<Dice>);
 
 impl Hand {
     pub fn off() -> Hand {
@@ -57,7 +58,7 @@ impl Hand {
     }
 
     pub fn on(seed: u64) -> Hand {
-        Hand(Some(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1))
+        Hand(Some(Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)))
     }
 
     pub fn is_on(&self) -> bool {
@@ -66,11 +67,7 @@ impl Hand {
 
     /// A number below `count`, never 0 from a hand that is off.
     fn throw(&mut self, count: u64) -> u64 {
-        let Some(state) = &mut self.0 else { return 1 };
-        *state ^= *state << 13;
-        *state ^= *state >> 7;
-        *state ^= *state << 17;
-        (*state >> 20) % count
+        self.0.as_mut().map_or(1, |dice| dice.throw(count))
     }
 
     /// Something is done in one period of a hundred; true if something is.

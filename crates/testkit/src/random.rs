@@ -1,13 +1,10 @@
-//! Random numbers that are the same in every run (SplitMix64).
+//! Random numbers that are the same in every run.
 
-/// How many samples a test takes: `default`, or what the environment asks for with CONTOURS.
-pub fn samples_asked(default: u64) -> u64 {
-    std::env::var("CONTOURS").map_or(default, |count| count.parse().expect("CONTOURS is a number"))
-}
-
+/// Evenly spread numbers (SplitMix64).
 pub struct Random(u64);
 
 impl Random {
+    /// The row of numbers of this seed.
     pub fn new(seed: u64) -> Random {
         // Seeds one beside the other give unlike rows.
         let mut random = Random(seed.wrapping_mul(0xD129_0000_5A4B_9C3D) ^ 0x5851_F42D_4C95_7F2D);
@@ -33,15 +30,32 @@ impl Random {
         self.between(low.ln(), high.ln()).exp()
     }
 
+    /// A number below `count`.
     pub fn below(&mut self, count: usize) -> usize {
         (self.bits() % count.max(1) as u64) as usize
     }
 
+    /// True in this share of all cases.
     pub fn chance(&mut self, share: f64) -> bool {
         self.between(0.0, 1.0) < share
     }
 
+    /// One of these.
     pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.below(from.len())]
+    }
+}
+
+/// Throws of a hand that interferes; the seed is not 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Dice(pub u64);
+
+impl Dice {
+    /// A number below `count`.
+    pub fn throw(&mut self, count: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 20) % count
     }
 }
