@@ -103,6 +103,9 @@ impl Before {
     }
 }
 
+/// Cells by kind, name and value; programs by name and text.
+pub type Kept = (Vec<(CellKind, String, String)>, Vec<(String, Vec<u8>)>);
+
 impl Station {
     /// A control that has just been powered on, with all programs in its memory.
     pub fn new(place: usize) -> Station {
@@ -299,7 +302,7 @@ impl Station {
     }
 
     /// All that survives power-off: cells by kind and name, programs by name.
-    pub fn kept(&mut self) -> (Vec<(CellKind, String, String)>, Vec<(String, Vec<u8>)>) {
+    pub fn kept(&mut self) -> Kept {
         let configuration = self.operator.session.configuration().clone();
         let mut cells = Vec::new();
         self.operator.session.see_kept(&mut |cell, value| {
